@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "city/base/types.h"
+#include "shaders/shared/records.h"
+
+namespace helio {
+
+/// Links in rows by receiver (CSR over all nodes, patches and inner nodes alike): irradiance_i += factor * radiosity_column.
+struct LinkTable
+{
+    std::vector<u32> rowBegin; ///< nodeCount + 1
+    std::vector<u32> column;   ///< sender node, ascending inside a row
+    std::vector<float> factor; ///< F(receiver to sender) x visibility, 0..1
+};
+
+/// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column).
+struct SkyTable
+{
+    std::vector<gpu::SkyPatchRecord> skyPatches;
+    std::vector<u32> rowBegin; ///< patchCount + 1
+    std::vector<u32> column;
+    std::vector<float> factor;
+};
+
+} // namespace helio

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <map>
+#include <span>
+
+#include "city/model/node_tree.h"
+#include "city/model/shape_tree.h"
+
+namespace helio {
+
+/// An asset instance to draw, with the patch whose light it takes.
+struct AssetInstance
+{
+    u32 asset = 0; ///< into ShapeTree::assets
+    u32 patch = 0;
+    glm::dmat4x3 worldFromAsset{1.0};
+};
+
+/// The light hierarchy of a derivation, and what is drawn beside the patches' own polygons.
+struct NodeTreeBuild
+{
+    NodeTree tree;
+    std::vector<AssetInstance> instances; ///< sorted by asset, then in order of derivation
+    u32 degenerateCount = 0;              ///< polygons dropped because their area is below 1e-8 m2
+    u32 orphanOverlayCount = 0;           ///< overlays without any patch of their building to stand on: not drawn
+    double areaDefect = 0.0;              ///< largest |area - sum of children| / area over tiling nodes
+};
+
+/// Builds the node tree from a derivation (design.md 4.2, 4.6): coplanar leaves under one shape form planar nodes, long
+/// sequences get balanced binary nodes, everything else is a cluster. `assetRho` holds the effective reflectance of each asset
+/// of the derivation; it replaces the reflectance of a patch that an asset fills.
+NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const glm::dvec4> assetRho);
+
+} // namespace helio

@@ -8,6 +8,13 @@
 
 namespace helio {
 
+/// What the node tree needs to know of an asset.
+struct AssetSummary
+{
+    glm::dvec4 rho{0.5};       ///< effective reflectance, r, g, b, solar
+    glm::dvec3 boxCentre{0.0}; ///< of its bounding box, asset units
+};
+
 /// An asset instance to draw, with the patch whose light it takes.
 struct AssetInstance
 {
@@ -27,8 +34,8 @@ struct NodeTreeBuild
 };
 
 /// Builds the node tree from a derivation (design.md 4.2, 4.6): coplanar leaves under one shape form planar nodes, long
-/// sequences get balanced binary nodes, everything else is a cluster. `assetRho` holds the effective reflectance of each asset
-/// of the derivation; it replaces the reflectance of a patch that an asset fills.
-NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const glm::dvec4> assetRho);
+/// sequences get balanced binary nodes, everything else is a cluster. `assets` holds one entry an asset of the
+/// derivation; its reflectance replaces that of a patch which the asset fills. An overlay takes the id of the patch behind it.
+NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets);
 
 } // namespace helio

@@ -2,6 +2,7 @@
 #pragma once
 #include <glm/vec4.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "city/model/polygon.h"

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "city/model/build_nodes.h"
+
+using namespace helio;
+
+namespace {
+
+/// A wall in the plane y = 0 that faces south (-y): x to the east, z up.
+Polygon3 wall(double x0, double z0, double x1, double z1) { return {{{x0, 0, z0}, {x1, 0, z0}, {x1, 0, z1}, {x0, 0, z1}}, {}}; }
+
+struct Scene
+{
+    ShapeTree tree;
+
+    Scene()
+    {
+        tree.names = {"shape"};
+        tree.surfaces = {{"stone", glm::dvec4(0.4, 0.3, 0.2, 0.35), glm::dvec4(0.0)}};
+        tree.buildingIds = {"house"};
+        tree.shapes.push_back({.building = 0});
+    }
+    u32 add(u32 parent, ShapeOp op)
+    {
+        tree.shapes.push_back({.parent = parent, .building = 0, .op = op});
+        return u32(tree.shapes.size()) - 1;
+    }
+    u32 addLeaf(u32 parent, const std::vector<Polygon3>& polygons, ShapeOp op = ShapeOp::Split)
+    {
+        const u32 index = add(parent, op);
+        Shape& shape = tree.shapes[index];
+        shape.polygonBegin = u32(tree.polygons.size());
+        shape.polygonCount = u32(polygons.size());
+        shape.surface = 0;
+        tree.polygons.insert(tree.polygons.end(), polygons.begin(), polygons.end());
+        return index;
+    }
+};
+
+/// Invariants of every node tree (city/model/node_tree.h).
+void checkTree(const NodeTree& tree)
+{
+    for (u32 i = 0; i < tree.nodeCount(); ++i) {
+        const Node& node = tree.nodes[i];
+        EXPECT_EQ(tree.isLeaf(i), node.childCount == 0) << i;
+        if (node.parent != kNoIndex) {
+            EXPECT_GT(node.parent, i);
+            EXPECT_GT(tree.nodes[node.parent].height, node.height);
+        }
+        double sum = 0.0;
+        for (const u32 child : tree.childrenOf(i)) {
+            EXPECT_EQ(tree.nodes[child].parent, i);
+            sum += tree.nodes[child].area;
+        }
+        if (node.childCount == 0) continue;
+        EXPECT_NEAR(sum, node.area, 1e-9 * node.area);
+        EXPECT_TRUE(node.kind != NodeKind::Tiling || std::abs(node.coverage - 1.0) <= 1e-5) << node.coverage;
+    }
+}
+
+} // namespace
+
+TEST(BuildNodes, ARowOfBaysBecomesABalancedBinaryTreeOfRectangles)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    for (int i = 0; i < 8; ++i) scene.addLeaf(facade, {wall(i, 0, i + 1, 3)});
+    const NodeTree tree = buildNodes(scene.tree, {}).tree;
+    checkTree(tree);
+    ASSERT_EQ(tree.patchCount(), 8u);
+    EXPECT_EQ(tree.nodeCount(), 8u + 7u);
+    const Node& root = tree.nodes.back();
+    EXPECT_EQ(root.height, 3u);
+    EXPECT_EQ(root.kind, NodeKind::Tiling);
+    EXPECT_NEAR(root.area, 24.0, 1e-12);
+    EXPECT_NEAR(glm::length(root.centroid - glm::dvec3(4, 0, 1.5)), 0.0, 1e-12);
+    EXPECT_NEAR(glm::length(root.normal - glm::dvec3(0, -1, 0)), 0.0, 1e-12);
+    EXPECT_EQ(tree.outlineOf(tree.nodeCount() - 1)[0].size(), 4u);
+}
+
+TEST(BuildNodes, AnOpeningMakesThePlanePartial)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    scene.addLeaf(facade, {wall(0, 0, 1, 3)});
+    scene.addLeaf(facade, {wall(2, 0, 3, 3)}); // the middle third is NIL
+    const NodeTree tree = buildNodes(scene.tree, {}).tree;
+    checkTree(tree);
+    EXPECT_EQ(tree.nodes.back().kind, NodeKind::PlanarPartial);
+    EXPECT_NEAR(tree.nodes.back().coverage, 2.0 / 3.0, 1e-12);
+}
+
+TEST(BuildNodes, FacesOfASolidStayRootsOfTheirOwn)
+{
+    Scene scene;
+    const u32 mass = scene.add(0, ShapeOp::Rule);
+    const u32 front = scene.add(mass, ShapeOp::Component);
+    scene.addLeaf(front, {wall(0, 0, 1, 3)});
+    scene.addLeaf(front, {wall(1, 0, 2, 3)});
+    const u32 coplanar = scene.add(mass, ShapeOp::Component); // another face in the same plane, 8 m away
+    scene.addLeaf(coplanar, {wall(10, 0, 11, 3)});
+    const NodeTree tree = buildNodes(scene.tree, {}).tree;
+    checkTree(tree);
+    u32 roots = 0;
+    for (u32 i = 0; i < tree.nodeCount(); ++i) roots += tree.isPlanarRoot(i) ? 1 : 0;
+    EXPECT_EQ(roots, 2u);
+    EXPECT_EQ(tree.nodes.back().kind, NodeKind::Cluster);
+}
+
+TEST(BuildNodes, ProtrudingPartsDoNotBreakTheFacade)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    const u32 bay = scene.add(facade, ShapeOp::Split);
+    scene.addLeaf(bay, {wall(0, 0, 1, 3)});
+    const Polygon3 sillTop{{{0, 0, 1}, {0, -0.1, 1}, {1, -0.1, 1}, {1, 0, 1}}, {}};
+    const Polygon3 sillFront{{{0, -0.1, 0.9}, {1, -0.1, 0.9}, {1, -0.1, 1}, {0, -0.1, 1}}, {}};
+    scene.addLeaf(bay, {sillTop, sillFront}, ShapeOp::Rule);
+    scene.addLeaf(facade, {wall(1, 0, 2, 3)});
+    const NodeTree tree = buildNodes(scene.tree, {}).tree;
+    checkTree(tree);
+    ASSERT_EQ(tree.patchCount(), 4u);
+    // Both wall pieces hang under one planar node in spite of the sill between them.
+    EXPECT_EQ(tree.nodes[0].parent, tree.nodes[3].parent);
+    EXPECT_EQ(tree.nodes[tree.nodes[0].parent].kind, NodeKind::Tiling);
+}
+
+TEST(BuildNodes, AnAssetThatFillsItsTileGivesItsReflectanceAndAnOverlayTakesThePatchBehind)
+{
+    Scene scene;
+    scene.tree.assets = {"window.glb", "balcony.glb"};
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    scene.addLeaf(facade, {wall(0, 0, 1, 3)});
+    const u32 window = scene.addLeaf(facade, {wall(1, 0, 2, 3)});
+    scene.tree.shapes[window].asset = 0;
+    scene.tree.shapes[window].placement = AssetPlacement::Fill;
+    const u32 balcony = scene.add(facade, ShapeOp::Insert);
+    scene.tree.shapes[balcony].asset = 1;
+    scene.tree.shapes[balcony].placement = AssetPlacement::Overlay;
+    scene.tree.shapes[balcony].worldFromAsset = glm::dmat4x3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(1.5, -0.4, 1));
+    const std::vector<AssetSummary> assets{{glm::dvec4(0.1), glm::dvec3(0.0)}, {glm::dvec4(0.9), glm::dvec3(0.0)}};
+    const NodeTreeBuild build = buildNodes(scene.tree, assets);
+    checkTree(build.tree);
+    ASSERT_EQ(build.tree.patchCount(), 2u);
+    EXPECT_EQ(build.tree.patches[0].rho, glm::dvec4(0.4, 0.3, 0.2, 0.35));
+    EXPECT_EQ(build.tree.patches[1].rho, glm::dvec4(0.1));
+    ASSERT_EQ(build.instances.size(), 2u);
+    EXPECT_EQ(build.instances[1].asset, 1u);
+    EXPECT_EQ(build.instances[1].patch, 1u);
+    EXPECT_EQ(build.orphanOverlayCount, 0u);
+}
+
+TEST(BuildNodes, DegeneratePolygonsAreCountedNotKept)
+{
+    Scene scene;
+    scene.addLeaf(0, {wall(0, 0, 1, 3), wall(1, 0, 1, 3)});
+    const NodeTreeBuild build = buildNodes(scene.tree, {});
+    EXPECT_EQ(build.degenerateCount, 1u);
+    EXPECT_EQ(build.tree.patchCount(), 1u);
+}
+
+TEST(BuildNodes, AnEmptyDerivationIsAnEmptyTree)
+{
+    EXPECT_EQ(buildNodes(Scene().tree, {}).tree.nodeCount(), 0u);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/accuracy/error_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace helio::test {
+
+ErrorMetrics compare(const std::vector<double>& area, const std::vector<double>& result, const std::vector<double>& reference,
+                     const std::vector<double>& referenceSe, const std::vector<bool>& keep)
+{
+    double areaSum = 0.0, mean = 0.0, difference = 0.0, square = 0.0, noise = 0.0;
+    std::vector<std::pair<double, double>> magnitudes; // |e - r|, area
+    for (size_t i = 0; i < area.size(); ++i) {
+        if (!keep[i]) continue;
+        const double d = result[i] - reference[i];
+        areaSum += area[i];
+        mean += area[i] * reference[i];
+        difference += area[i] * d;
+        square += area[i] * d * d;
+        noise += area[i] * referenceSe[i] * referenceSe[i];
+        magnitudes.emplace_back(std::abs(d), area[i]);
+    }
+    mean /= areaSum;
+    std::sort(magnitudes.begin(), magnitudes.end());
+    ErrorMetrics metrics;
+    metrics.rms = std::sqrt(std::max(0.0, (square - noise) / areaSum)) / mean;
+    metrics.bias = difference / areaSum / mean;
+    double below = 0.0;
+    for (const auto& [magnitude, weight] : magnitudes) {
+        below += weight;
+        metrics.p95 = magnitude / mean;
+        if (below >= 0.95 * areaSum) break;
+    }
+    return metrics;
+}
+
+} // namespace helio::test

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct AssetMesh
 
 /// Loads a .glb. Errors name the file and what is wrong (no mesh, no positions, sparse or Draco data, index out of range).
 Result<AssetMesh> loadAsset(const std::filesystem::path& file, const std::string& nameInRule);
+
+/// The same from the bytes of a .glb; `file` stands for the file in messages. The baker carries the shipped assets inside.
+Result<AssetMesh> parseAsset(std::span<const std::byte> glb, const std::string& file, const std::string& nameInRule);
 
 /// The asset of a name written in a rule: `folder / name`, else an error that lists where it was looked for.
 Result<std::filesystem::path> findAsset(const std::string& nameInRule, const std::vector<std::filesystem::path>& folders);

@@ -20,13 +20,13 @@ struct PackIndex
 {
     u32 version = kPackVersion;
     std::string crs;
-    glm::dvec3 origin{0.0};          ///< m, of the tile frame
+    glm::dvec3 origin{0.0}; ///< m, of the tile frame
     double latitudeDeg = 0.0, longitudeDeg = 0.0;
-    double northDeg = 0.0;           ///< clockwise angle from true north to grid north (+y)
+    double northDeg = 0.0;             ///< clockwise angle from true north to grid north (+y)
     std::string source, rules, method; ///< input's name without its folder, rule file's name, link method
     u64 inputHash = 0, rulesHash = 0, seed = 0;
-    std::string options;             ///< bake options that change the result, as JSON text
-    u32 sourceFaceCount = 0;         ///< faces of the OBJ, 0 for cities
+    std::string options;                        ///< bake options that change the result, as JSON text
+    u32 sourceFaceCount = 0;                    ///< faces of the OBJ, 0 for cities
     glm::vec3 boundsMin{0.0f}, boundsMax{0.0f}; ///< m, of everything drawn
 };
 
@@ -34,25 +34,26 @@ struct PackIndex
 struct TileView
 {
     std::span<const gpu::PatchRecord> patches;
-    std::span<const gpu::NodeRecord> nodes;          ///< patches first, then inner nodes by rising height
+    std::span<const gpu::NodeRecord> nodes; ///< patches first, then inner nodes by rising height
     std::span<const gpu::NodeInfoRecord> nodeInfos;
     std::span<const u32> children;
-    std::span<const u32> outlineRows;                ///< nodeCount + 1 offsets into outlineRings
-    std::span<const u32> outlineRings;               ///< per ring: first point << 1 | isHole; plus one sentinel (pointCount << 1)
-    std::span<const glm::vec3> outlinePoints;        ///< m, tile frame
-    std::span<const u32> linkRows;                   ///< nodeCount + 1 offsets, one row a receiver
-    std::span<const u32> linkColumns;                ///< sender node
-    std::span<const float> linkFactors;              ///< F(receiver to sender) x visibility
-    std::span<const float> linkMoments;              ///< empty (constant senders), or two a link
+    std::span<const u32> outlineRows;  ///< nodeCount + 1 offsets into outlineRings
+    std::span<const u32> outlineRings; ///< per ring: first point << 1 | isHole; plus one sentinel (pointCount << 1)
+    std::span<const glm::vec3> outlinePoints; ///< m, tile frame
+    std::span<const glm::vec3> outlineRests; ///< m, what rounding took from outlinePoints: their sum in double is exact
+    std::span<const u32> linkRows;           ///< nodeCount + 1 offsets, one row a receiver
+    std::span<const u32> linkColumns;        ///< sender node
+    std::span<const float> linkFactors;      ///< F(receiver to sender) x visibility
+    std::span<const float> linkMoments;      ///< empty (constant senders), or two a link
     std::span<const gpu::SkyPatchRecord> skyPatches;
-    std::span<const u32> skyRows;                    ///< patchCount + 1 offsets
-    std::span<const u32> skyColumns;                 ///< sky patch
-    std::span<const float> skyFactors;               ///< fraction of the patch's cosine-weighted hemisphere that sees it
+    std::span<const u32> skyRows;      ///< patchCount + 1 offsets
+    std::span<const u32> skyColumns;   ///< sky patch
+    std::span<const float> skyFactors; ///< fraction of the patch's cosine-weighted hemisphere that sees it
     std::span<const gpu::VertexRecord> vertices;
     std::span<const u32> indices;
-    std::span<const gpu::InstanceRecord> instances;  ///< instance 0 is the static mesh
+    std::span<const gpu::InstanceRecord> instances; ///< instance 0 is the static mesh
     std::span<const gpu::DrawRecord> draws;
-    std::span<const char> nodeNames;                 ///< '\n'-terminated names
+    std::span<const char> nodeNames; ///< '\n'-terminated names
     std::span<const char> surfaceNames;
     std::span<const char> buildingIds;
 };
@@ -61,8 +62,8 @@ struct TileView
 class Pack
 {
 public:
-    /// Opens and checks a pack folder. Errors name file, section and offset: not a pack, other version, truncated, bad checksum,
-    /// index out of range.
+    /// Opens and checks a pack folder. Errors name file, section and offset: not a pack, other version, truncated, bad
+    /// checksum, index out of range.
     static Result<Pack> open(const std::filesystem::path& folder);
 
     const PackIndex& index() const { return index_; }

@@ -27,6 +27,7 @@ static_assert(sizeof(glm::vec3) == 12, "GLM's aligned types must stay off: the s
 #define HELIO_SHARED_BEGIN
 #define HELIO_SHARED_END
 #define HELIO_CONSTANT const
+#define centroid centroid_ // a keyword of GLSL that one record uses as a member's name
 #define HELIO_SIZE(Type, bytes)
 #endif
 

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/grammar/resolve.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace helio::cga {
+
+namespace {
+
+class Resolver
+{
+public:
+    explicit Resolver(Program& program) : program_(program) {}
+
+    Status run()
+    {
+        for (Global& global : program_.globals) {
+            parameters_ = &global.parameters;
+            resolve(global.value);
+        }
+        for (Rule& rule : program_.rules) {
+            parameters_ = &rule.parameters;
+            resolve(rule.body);
+        }
+        if (program_.startRule == kNoIndex) {
+            const auto lot = program_.ruleIndex.find({"Lot", 0});
+            if (lot != program_.ruleIndex.end()) program_.startRule = lot->second;
+        } else if (const Rule& start = program_.rules[program_.startRule]; !start.parameters.empty()) {
+            fail(start.place, "the start rule must not have parameters");
+        }
+        if (!error_.message.empty()) return error_;
+        return Nothing{};
+    }
+
+private:
+    void fail(Place place, std::string_view message)
+    {
+        if (error_.message.empty()) error_ = errorAt(program_.fileName, place, message);
+    }
+    void warnOnce(Place place, const std::string& name, std::string_view message)
+    {
+        if (warned_.insert(name).second) program_.warnings.push_back(errorAt(program_.fileName, place, message).message);
+    }
+
+    // ---- expressions
+    void resolve(Expr& expr)
+    {
+        if (expr.kind != ExprKind::Keyword) {
+            for (Expr& arg : expr.args) resolve(arg);
+            return;
+        }
+        const u32 argCount = u32(expr.args.size());
+        if (argCount == 0) {
+            const auto parameter = std::find(parameters_->begin(), parameters_->end(), expr.text);
+            if (parameter != parameters_->end()) {
+                expr.kind = ExprKind::Parameter;
+                expr.index = u32(parameter - parameters_->begin());
+                return;
+            }
+        }
+        if (const auto global = program_.globalIndex.find({expr.text, argCount}); global != program_.globalIndex.end()) {
+            expr.kind = ExprKind::Global;
+            expr.index = global->second;
+            for (Expr& arg : expr.args) resolve(arg);
+            return;
+        }
+        if (const auto attribute = findShapeAttribute(expr.text); attribute && argCount == 0) {
+            expr.kind = ExprKind::Shape;
+            expr.index = u32(*attribute);
+            return;
+        }
+        if (const auto info = findFunction(expr.text)) return resolveFunction(expr, *info);
+        if (const std::string_view advice = refusedFunction(expr.text); !advice.empty())
+            return fail(expr.place, concat("the function '", expr.text, "' is not supported: ", advice));
+        for (const Global& global : program_.globals)
+            if (global.name == expr.text)
+                return fail(expr.place, concat("'", expr.text, "' takes ", global.parameters.size(), " arguments, not ", argCount));
+        fail(expr.place, concat("unknown ", argCount > 0 ? "function" : "name", " '", expr.text, "': declare it with attr, const or as a function, or quote it if it is text"));
+    }
+
+    void resolveFunction(Expr& expr, const FunctionInfo& info)
+    {
+        const size_t argCount = expr.args.size();
+        if (argCount < info.minArgs || argCount > info.maxArgs)
+            return fail(expr.place, concat("'", expr.text, "' takes ", range(info.minArgs, info.maxArgs), " arguments, not ", argCount));
+        expr.kind = ExprKind::Builtin;
+        expr.index = u32(info.function);
+        if (!info.keywords) {
+            for (Expr& arg : expr.args) resolve(arg);
+            return;
+        }
+        if (info.function == Function::GeometryArea) {
+            if (argCount == 0) return;
+            const auto selector = findSelector(expr.args[0].text);
+            if (expr.args[0].kind != ExprKind::Keyword || !selector)
+                return fail(expr.args[0].place, "geometry.area() takes no argument, or a selector such as top, bottom, side or all");
+            expr.args[0].index = u32(*selector);
+            return;
+        }
+        for (size_t k = 0; k < argCount; ++k) { // touches(inter), inside(inter)
+            const std::string& word = expr.args[k].text;
+            if (expr.args[k].kind == ExprKind::Keyword && k == 0 && word == "inter") continue;
+            return fail(expr.args[k].place, concat("'", expr.text, "' only knows (inter), the walls of other buildings"));
+        }
+    }
+
+    static std::string range(u32 low, u32 high)
+    {
+        if (low == high) return concat(low);
+        return high > 50 ? concat("at least ", low) : concat(low, " to ", high);
+    }
+
+    // ---- statements
+    void resolve(Body& body)
+    {
+        for (Expr& condition : body.conditions) resolve(condition);
+        for (Body& inner : body.bodies) resolve(inner);
+        for (Statement& statement : body.statements) {
+            if (statement.kind == StatementKind::Push) resolve(statement.body[0]);
+            else resolveCall(statement);
+        }
+    }
+
+    void resolveCall(Statement& statement)
+    {
+        const std::string name = program_.names[statement.name];
+        const u32 argCount = u32(statement.args.size());
+        if (const auto info = findOperation(name)) return resolveOperation(statement, name, *info);
+        for (Size& arg : statement.args) {
+            resolve(arg.value);
+            if (arg.kind != SizeKind::Absolute) fail(arg.value.place, "' and ~ belong to sizes: in arguments of s, t and split");
+        }
+        if (statement.block) return fail(statement.place, concat("unknown operation '", name, "': only split and comp take a block { .. }"));
+        statement.kind = StatementKind::Rule;
+        if (const auto rule = program_.ruleIndex.find({name, argCount}); rule != program_.ruleIndex.end()) {
+            statement.rule = rule->second;
+            return;
+        }
+        for (const Rule& rule : program_.rules)
+            if (program_.names[rule.name] == name)
+                return fail(statement.place, concat("rule '", name, "' takes ", rule.parameters.size(), " arguments, not ", argCount));
+        if (argCount > 0) return fail(statement.place, concat("unknown operation or rule '", name, "': README.md in city/grammar lists what is read"));
+        if (name.back() != '.') {
+            warnOnce(statement.place, name, concat("rule '", name, "' is not declared: its shapes stay as they are (write '", name, ".' if that is meant)"));
+            return;
+        }
+        statement.name = terminal(name.substr(0, name.size() - 1));
+    }
+
+    u32 terminal(const std::string& name)
+    {
+        if (nameIndex_.empty())
+            for (u32 k = 0; k < program_.names.size(); ++k) nameIndex_.emplace(program_.names[k], k);
+        const auto [it, added] = nameIndex_.emplace(name, u32(program_.names.size()));
+        if (added) program_.names.push_back(name);
+        return it->second;
+    }
+
+    /// Takes the bare word at the front of the arguments, if there is one.
+    std::string takeWord(Statement& statement, size_t at = 0)
+    {
+        if (at >= statement.args.size()) return "";
+        const Expr& value = statement.args[at].value;
+        if (value.kind != ExprKind::Keyword || !value.args.empty()) return "";
+        const std::string word = value.text;
+        statement.args.erase(statement.args.begin() + std::ptrdiff_t(at));
+        return word;
+    }
+
+    void resolveOperation(Statement& statement, const std::string& name, const OperationInfo& info)
+    {
+        statement.op = info.op;
+        if (info.op == Operation::Ignored) {
+            warnOnce(statement.place, name, concat("'", name, "' is read and ignored: surfaces have one colour, textures and labels are not supported"));
+            statement.args.clear();
+            return;
+        }
+        const size_t argCount = statement.args.size();
+        if (argCount < info.minArgs || argCount > info.maxArgs)
+            return fail(statement.place, concat("'", name, "' takes ", range(info.minArgs, info.maxArgs), " arguments, not ", argCount, ": write ", info.usage));
+        if (info.hasBlock != (statement.block != nullptr))
+            return fail(statement.place, concat(info.hasBlock ? "a block { .. } is missing after '" : "no block { .. } belongs after '", name, "': write ", info.usage));
+        if (!resolveWords(statement)) return fail(statement.place, concat("'", name, "' does not know this bare word: write ", info.usage));
+        const bool sizes = info.op == Operation::Resize || info.op == Operation::Translate;
+        for (Size& arg : statement.args) {
+            resolve(arg.value);
+            if (arg.kind == SizeKind::Floating || (arg.kind == SizeKind::Relative && !sizes))
+                fail(arg.value.place, concat(arg.kind == SizeKind::Floating ? "'~' belongs to sizes of split" : "' (relative to the scope) belongs to s, t and split"));
+        }
+        if (statement.block) resolveBlock(*statement.block, info.op);
+    }
+
+    /// Turns the bare words of an operation into Statement::mode; false if a word is unknown.
+    bool resolveWords(Statement& statement)
+    {
+        switch (statement.op) {
+        case Operation::Component: return takeWord(statement) == "f";
+        case Operation::AlignScopeToAxes: {
+            if (statement.args.empty()) return true;
+            statement.mode = 1;
+            return takeWord(statement) == "y";
+        }
+        case Operation::Center: {
+            const std::string axes = takeWord(statement);
+            for (const char axis : axes) {
+                if (axis < 'x' || axis > 'z') return false;
+                statement.mode |= 1u << (axis - 'x');
+            }
+            return !axes.empty();
+        }
+        case Operation::Extrude: {
+            if (statement.args.size() == 1) return true;
+            const std::string word = takeWord(statement);
+            static constexpr std::array<std::pair<std::string_view, ExtrudeMode>, 4> kModes = {
+                {{"face.normal", ExtrudeMode::FaceNormal}, {"vertex.normal", ExtrudeMode::FaceNormal},
+                 {"world.up", ExtrudeMode::WorldUp}, {"world.up.flatTop", ExtrudeMode::WorldUpFlatTop}}};
+            for (const auto& [text, mode] : kModes)
+                if (word == text) return statement.mode = u32(mode), true;
+            return false;
+        }
+        case Operation::Insert: {
+            if (statement.args.size() == 1) return true;
+            const std::string word = takeWord(statement, 1);
+            statement.mode = word == "zUp" ? kWholeScope : 0;
+            return word == "zUp" || word == "yUp";
+        }
+        case Operation::Rotate: {
+            if (statement.args.size() == 3) return true;
+            const std::string word = takeWord(statement);
+            statement.mode = word == "scopeCenter" ? kWholeScope : 0;
+            return word == "scopeCenter" || word == "scopeOrigin";
+        }
+        case Operation::Split: {
+            const std::string axis = takeWord(statement);
+            if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z') return false;
+            statement.mode = u32(axis[0] - 'x');
+            if (statement.args.empty()) return true;
+            statement.mode |= kNoAdjust;
+            return takeWord(statement) == "noAdjust";
+        }
+        case Operation::Set: return resolveSet(statement);
+        default: return true;
+        }
+    }
+
+    bool resolveSet(Statement& statement)
+    {
+        const std::string word = takeWord(statement);
+        static constexpr std::array<std::pair<std::string_view, SetTarget>, 9> kTargets = {
+            {{"material.color.r", SetTarget::ColorR}, {"material.color.g", SetTarget::ColorG}, {"material.color.b", SetTarget::ColorB},
+             {"material.color.rgb", SetTarget::ColorRgb}, {"material.name", SetTarget::Name}, {"material.emissive.r", SetTarget::EmissiveR},
+             {"material.emissive.g", SetTarget::EmissiveG}, {"material.emissive.b", SetTarget::EmissiveB}, {"seedian", SetTarget::Seedian}}};
+        for (const auto& [text, target] : kTargets)
+            if (word == text) return statement.mode = u32(target), true;
+        if (const auto global = program_.globalIndex.find({word, 0}); global != program_.globalIndex.end()) {
+            if (program_.globals[global->second].kind != GlobalKind::Attribute) return false;
+            statement.mode = u32(SetTarget::FirstGlobal) + global->second;
+            return true;
+        }
+        if (word.rfind("material.", 0) != 0 && word.rfind("trim.", 0) != 0) return false;
+        statement.mode = u32(SetTarget::Ignored);
+        warnOnce(statement.place, "set " + word, concat("set(", word, ", ..) is read and ignored: surfaces have a colour, a name and an emission"));
+        return true;
+    }
+
+    void resolveBlock(Block& block, Operation op)
+    {
+        if (op != Operation::Split && block.repeat) fail(block.elements.empty() ? Place{} : block.elements[0].place, "only split repeats its block with '*'");
+        for (BlockElement& element : block.elements) {
+            if (element.nested) {
+                resolveBlock(*element.nested, op);
+                continue;
+            }
+            if (op == Operation::Split) resolve(element.size.value);
+            resolve(element.body);
+        }
+    }
+
+    Program& program_;
+    const std::vector<std::string>* parameters_ = nullptr;
+    std::map<std::string, u32> nameIndex_;
+    std::set<std::string> warned_;
+    Error error_;
+};
+
+} // namespace
+
+Status resolveProgram(Program& program) { return Resolver(program).run(); }
+
+} // namespace helio::cga

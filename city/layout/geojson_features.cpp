@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/layout/geojson_features.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace helio {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double kLargestHeight = 1000.0; // m; more is a unit mistake
+
+const json* find(const json& object, const char* key)
+{
+    if (!object.is_object()) return nullptr;
+    const auto place = object.find(key);
+    return place == object.end() ? nullptr : &*place;
+}
+
+std::string textOf(const json& object, const char* key)
+{
+    const json* value = find(object, key);
+    return value && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+std::string idText(const json& value)
+{
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return value.dump();
+    return {};
+}
+
+std::string idOf(const json& feature, size_t number)
+{
+    std::string id;
+    if (const json* own = find(feature, "id")) id = idText(*own);
+    const json* properties = find(feature, "properties");
+    if (const json* own = properties ? find(*properties, "id") : nullptr; own && id.empty()) id = idText(*own);
+    return id.empty() ? concat("#", number) : id;
+}
+
+// A number, or a text that is a number with at most the unit m behind it ("12", "12 m", "12.5m").
+std::optional<double> numberOf(const json& value)
+{
+    if (value.is_number()) return value.get<double>();
+    if (!value.is_string()) return std::nullopt;
+    const std::string text = value.get<std::string>();
+    const char* end = text.data() + text.size();
+    double number = 0.0;
+    const auto [stop, failure] = std::from_chars(text.data(), end, number);
+    if (failure != std::errc()) return std::nullopt;
+    std::string_view unit(stop, size_t(end - stop));
+    while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+    return unit.empty() || unit == "m" ? std::optional(number) : std::nullopt;
+}
+
+class Reader
+{
+public:
+    explicit Reader(std::string_view name) : name_(name) {}
+
+    Result<GeoFile> read(const json& root)
+    {
+        if (!root.is_object()) return fail("the file holds no JSON object; export the footprints as GeoJSON");
+        readFrame(root);
+        if (const Status frame = checkCrs(); !frame) return frame.error();
+        const std::string type = textOf(root, "type");
+        if (type == "FeatureCollection") {
+            const json* features = find(root, "features");
+            if (!features || !features->is_array()) return fail("FeatureCollection without an array \"features\"");
+            for (size_t i = 0; i < features->size(); ++i) readFeature((*features)[i], i);
+        } else if (type == "Feature") {
+            readFeature(root, 0);
+        } else if (find(root, "coordinates") || find(root, "geometries")) {
+            GeoFeature feature;
+            feature.id = "#0";
+            readGeometry(root, feature);
+        } else {
+            return fail(concat("type \"", type.substr(0, 40), "\" is not GeoJSON; a FeatureCollection is expected"));
+        }
+        return std::move(file_);
+    }
+
+private:
+    Error fail(const std::string& what) const { return Error{concat(name_, ": ", what)}; }
+    void skip(const GeoFeature& feature, const std::string& why)
+    {
+        file_.notes.push_back(concat("feature ", feature.id, ": ", why, ", skipped"));
+    }
+
+    void readFrame(const json& root)
+    {
+        if (const json* crs = find(root, "crs"))
+            if (const json* properties = find(*crs, "properties")) file_.crs = textOf(*properties, "name");
+        const json* metadata = find(root, "metadata");
+        if (!metadata) return;
+        if (const std::string crs = textOf(*metadata, "crs"); !crs.empty()) file_.crs = crs;
+        const json* origin = find(*metadata, "origin");
+        if (!origin || !origin->is_array()) return;
+        for (u32 i = 0; i < std::min<size_t>(3, origin->size()); ++i)
+            if ((*origin)[i].is_number()) file_.origin[int(i)] = (*origin)[i].get<double>();
+    }
+
+    Status checkCrs() const
+    {
+        for (const char* degrees : {"4326", "CRS84", "4258", "4979"})
+            if (file_.crs.find(degrees) != std::string::npos)
+                return fail(concat("CRS ", file_.crs, " is in degrees; reproject to a metric one (UTM, say)"));
+        return Nothing{};
+    }
+
+    void readFeature(const json& value, size_t number)
+    {
+        GeoFeature feature;
+        feature.id = idOf(value, number);
+        const json* geometry = find(value, "geometry");
+        if (!geometry || !geometry->is_object()) return skip(feature, "no geometry");
+        if (const json* properties = find(value, "properties"); properties && properties->is_object())
+            readProperties(*properties, feature);
+        readGeometry(*geometry, feature);
+    }
+
+    std::optional<double> positive(const json& value, const char* key, double largest, const GeoFeature& feature)
+    {
+        if (value.is_null()) return std::nullopt;
+        const std::optional<double> number = numberOf(value);
+        const bool usable = number && *number > 0.0 && *number <= largest;
+        const std::string outcome = usable ? concat("is read as ", *number) : "is not usable, ignored";
+        if (!usable || value.is_string())
+            file_.notes.push_back(
+                concat("feature ", feature.id, ": ", key, " ", value.dump().substr(0, 40), " ", outcome));
+        return usable ? number : std::nullopt;
+    }
+
+    void readProperties(const json& properties, GeoFeature& feature)
+    {
+        for (const auto& [key, value] : properties.items()) {
+            if (key == "height") {
+                feature.height = positive(value, "height", kLargestHeight, feature);
+                continue;
+            }
+            if (key == "levels") feature.levels = positive(value, "levels", kLargestHeight / 2.0, feature);
+            if (value.is_number()) feature.attributes[key] = value.get<double>();
+            if (value.is_boolean()) feature.attributes[key] = value.get<bool>();
+            if (value.is_string()) feature.attributes[key] = value.get<std::string>();
+        }
+    }
+
+    void readGeometry(const json& geometry, GeoFeature& feature)
+    {
+        std::string trouble;
+        collect(geometry, feature, trouble);
+        if (!trouble.empty()) return skip(feature, trouble);
+        file_.features.push_back(std::move(feature));
+    }
+
+    // Appends the polygons of a geometry; sets `trouble` if it is not usable. Collections nest no deeper than one
+    // level.
+    void collect(const json& geometry, GeoFeature& feature, std::string& trouble, bool nested = false)
+    {
+        const std::string type = textOf(geometry, "type");
+        const json* list = find(geometry, type == "GeometryCollection" ? "geometries" : "coordinates");
+        const bool known = type == "Polygon" || type == "MultiPolygon" || (type == "GeometryCollection" && !nested);
+        if (!known) {
+            trouble = concat(type.empty() ? "geometry without a type" : type.substr(0, 40), " is no footprint");
+        } else if (!list || !list->is_array() || list->empty()) {
+            trouble = concat(type, " without coordinates");
+        } else if (type == "Polygon") {
+            readPolygon(*list, feature, trouble);
+        } else {
+            for (const json& part : *list) {
+                if (type == "MultiPolygon")
+                    readPolygon(part, feature, trouble);
+                else
+                    collect(part, feature, trouble, true);
+            }
+        }
+    }
+
+    void readPolygon(const json& rings, GeoFeature& feature, std::string& trouble)
+    {
+        if (!rings.is_array() || rings.empty()) {
+            trouble = "polygon without rings";
+            return;
+        }
+        Polygon2 polygon;
+        for (size_t r = 0; r < rings.size(); ++r) {
+            if (!rings[r].is_array()) {
+                trouble = concat("ring ", r, " is not an array of corners");
+                return;
+            }
+            Ring2 ring;
+            for (size_t i = 0; i < rings[r].size(); ++i) {
+                const json& corner = rings[r][i];
+                if (!corner.is_array() || corner.size() < 2 || !corner[0].is_number() || !corner[1].is_number()) {
+                    trouble = concat("ring ", r, ", corner ", i, " is not a pair of numbers");
+                    return;
+                }
+                ring.emplace_back(corner[0].get<double>(), corner[1].get<double>());
+            }
+            if (ring.size() > 1 && ring.front() == ring.back())
+                ring.pop_back();
+            else
+                ++feature.openRings;
+            if (r == 0)
+                polygon.outer = std::move(ring);
+            else
+                polygon.holes.push_back(std::move(ring));
+        }
+        feature.polygons.push_back(std::move(polygon));
+    }
+
+    std::string_view name_;
+    GeoFile file_;
+};
+
+// "parse error at line 1, column 5: what is wrong" without the library's own prefix.
+std::string reasonOf(const std::exception& failure)
+{
+    std::string text = failure.what();
+    const size_t column = text.find(", column ");
+    const size_t colon = text.find(": ", column == std::string::npos ? 0 : column);
+    const size_t bracket = text.find("] ");
+    if (column != std::string::npos && colon != std::string::npos)
+        text = text.substr(colon + 2);
+    else if (bracket != std::string::npos)
+        text = text.substr(bracket + 2);
+    return text.substr(0, 160);
+}
+
+} // namespace
+
+Result<GeoFile> readGeoFeatures(std::string_view text, std::string_view name)
+{
+    try {
+        return Reader(name).read(json::parse(text));
+    } catch (const json::parse_error& failure) {
+        const size_t byte = std::min(failure.byte, text.size());
+        const auto line = 1 + std::count(text.begin(), text.begin() + long(byte), '\n');
+        return Error{concat(name, ":", line, ": byte ", byte, ": not JSON (", reasonOf(failure),
+                            "); export the footprints as GeoJSON")};
+    } catch (const json::exception& failure) {
+        return Error{concat(name, ": ", reasonOf(failure), "; export the footprints as GeoJSON")};
+    }
+}
+
+} // namespace helio

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "city/model/footprint.h"
+#include "city/model/shape_tree.h"
+
+namespace helio {
+
+struct GroundOptions
+{
+    double cellSize = 4.0; ///< m, > 0: largest side of a piece; doubled (with a note) until there are at most maxCells
+    double margin = 30.0;  ///< m, >= 0: ground around the bounding box of the footprints
+    double pavementWidth = 3.0; ///< m, >= 0: strip along facades outside of courts
+    u32 maxCells = 1000000;
+};
+
+/// Fills Layout::ground with everything that no footprint covers: the bounding box with its margin, cut along a grid,
+/// each piece of one kind at z = 0 facing up. Kinds: those of the areas that the layout already holds (lawns, say; they
+/// are cut up too), "court" where buildings enclose it, "pavement" along the other facades, "street" for the rest.
+/// Pieces tile the ground on a grid of 0.1 mm; pieces below 0.01 m2 are dropped. GroundArea::block numbers squares of
+/// 16 x 16 cells. A layout without footprints gets no ground.
+void addGround(Layout& layout, const GroundOptions& options = {});
+
+/// Appends the ground to a derivation, building kNoIndex: Root "Ground" > Group "Block" > one leaf a piece, named by
+/// its kind, with groundSurface(kind). buildNodes makes the balanced planar tree of each block from it.
+void appendGround(ShapeTree& tree, const Layout& layout);
+
+/// Reflectance by kind: street (asphalt) 0.12, pavement 0.30, court (paving) 0.25, green (grass) 0.10 0.16 0.07 and
+/// 0.22 broadband because leaves reflect infrared; 0.20 for any other kind. No emission.
+Surface groundSurface(const std::string& kind);
+
+} // namespace helio

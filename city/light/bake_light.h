@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "city/light/light_tables.h"
+#include "city/model/node_tree.h"
+
+namespace helio {
+
+/// How links are chosen and weighed.
+enum class LinkMethod : u8
+{
+    Heliopolis,  ///< no cut-off, form factor x visibility, refined by the error that a link leaves (design.md part 4)
+    Paper,       ///< the source paper's algorithms, repaired: form factor threshold, cut-off by box distance, no visibility
+    PaperLiteral ///< as printed: centre distance, the wrong node is refined, pairs that refine a leaf are lost
+};
+
+/// What bakeLight does; every zero means "choose".
+struct LightOptions
+{
+    LinkMethod method = LinkMethod::Heliopolis;
+    /// Heliopolis: the irradiance error that one link may leave in a patch of mean size, as a fraction of the scene's mean
+    /// radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = the method's default.
+    double formFactorEpsilon = 0.0;
+    u32 raysPerPatch = 0;  ///< sky rays of a patch; 0 = 64 million over the number of patches, within [128, 1024]
+    u32 raysPerLink = 0;   ///< visibility rays of a pair of parts (a link has up to 16 such pairs); 0 = 4
+    double cutoff = 22.5;  ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
+    u32 jobs = 0;          ///< threads; 0 = all cores. The result does not depend on it.
+    u64 seed = 1;
+    std::function<void(const char* step, double done)> progress; ///< may be empty; called from one thread at a time, done in 0..1
+};
+
+struct MinMeanMax
+{
+    double min = 0.0, mean = 0.0, max = 0.0; ///< the mean is area weighted
+};
+
+struct StepSeconds
+{
+    std::string step;
+    double seconds = 0.0;
+};
+
+/// What a bake says about itself.
+struct LightStats
+{
+    u64 linkCount = 0;          ///< directed links
+    double linksPerPatch = 0.0; ///< linkCount / patches
+    u32 rootPairCount = 0;      ///< pairs of planar roots that may see each other
+    u64 pairsEvaluated = 0;     ///< node pairs that the oracle looked at
+    u32 raysPerPatch = 0;
+    MinMeanMax closure;    ///< per patch: links (own and ancestors') + sky + escape below the horizon + back faces; 1 = closed
+    MinMeanMax rowSum;     ///< per patch: links, own and ancestors'
+    MinMeanMax rayRowSum;  ///< per patch: fraction of its rays that hit a lit side
+    MinMeanMax sky;        ///< per patch: fraction of its rays that reach the sky
+    double closureDefect = 0.0; ///< mean(rowSum) / mean(rayRowSum) - 1; more than 1 % away from 0 means missing senders
+    std::vector<StepSeconds> seconds;
+};
+
+struct LightBake
+{
+    LinkTable links;
+    SkyTable sky;
+    LightStats stats;
+};
+
+/// Computes what light does in a city once, for every sun and every sky: the links between nodes and the patches' view of the
+/// sky. Deterministic: the same tree and options give the same bytes for any number of jobs. Aborts (HELIO_CHECK) on a tree
+/// whose areas or indices are not valid.
+LightBake bakeLight(const NodeTree& tree, const LightOptions& options);
+
+} // namespace helio

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/light/sky.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+
+#include "city/base/check.h"
+#include "city/base/hash.h"
+#include "city/base/parallel.h"
+#include "city/light/sequence.h"
+
+namespace helio {
+namespace {
+
+constexpr u32 kChunk = 256; // patches
+
+void sortUnique(std::vector<std::pair<u32, u32>>& pairs)
+{
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+} // namespace
+
+std::vector<u32> planarRoots(const NodeTree& tree)
+{
+    std::vector<u32> root(tree.nodeCount(), kNoIndex);
+    for (u32 i = tree.nodeCount(); i-- > 0;) {
+        if (tree.nodes[i].kind == NodeKind::Cluster) continue;
+        root[i] = tree.isPlanarRoot(i) ? i : root[tree.nodes[i].parent];
+    }
+    return root;
+}
+
+u32 autoRaysPerPatch(u32 patchCount) { return std::bit_floor(std::clamp(64'000'000u / std::max(1u, patchCount), 128u, 1024u)); }
+
+SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
+                const std::function<void(double)>& progress)
+{
+    HELIO_CHECK(rays > 0, "rays = ", rays);
+    const u32 count = tree.patchCount();
+    const std::vector<u32> root = planarRoots(tree);
+    SkyScan scan;
+    for (std::vector<float>* column : {&scan.sky, &scan.below, &scan.rowSum, &scan.back}) column->resize(count);
+    std::vector<std::vector<std::pair<u32, u32>>> pairsOf((count + kChunk - 1) / kChunk);
+    std::mutex mutex;
+    u32 done = 0;
+
+    parallelFor(count, kChunk, jobs, [&](u32 begin, u32 end) {
+        std::vector<std::pair<u32, u32>>& pairs = pairsOf[begin / kChunk];
+        std::vector<u32> seen;
+        for (u32 patch = begin; patch < end; ++patch) {
+            const PlaneFrame frame = planeFrame(tree.nodes[patch].normal);
+            const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed, 0x5ca7), patch));
+            u32 sky = 0, below = 0, front = 0, back = 0;
+            seen.clear();
+            for (u32 k = 0; k < rays; ++k) {
+                const std::array<double, 4> x = shiftedSobol4(k, shift);
+                const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
+                const glm::dvec3 direction =
+                    r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * frame.normal;
+                const RayHit hit = visibility.trace(visibility.pointOnPatch(patch, x[2], x[3]), frame.normal, direction);
+                if (hit.patch == kNoIndex) {
+                    ++(direction.z > 0.0 ? sky : below);
+                } else if (!hit.front) {
+                    ++back;
+                } else {
+                    ++front;
+                    if (seen.empty() || seen.back() != root[hit.patch]) seen.push_back(root[hit.patch]);
+                }
+            }
+            const float share = 1.0f / float(rays);
+            scan.sky[patch] = float(sky) * share;
+            scan.below[patch] = float(below) * share;
+            scan.rowSum[patch] = float(front) * share;
+            scan.back[patch] = float(back) * share;
+            std::sort(seen.begin(), seen.end());
+            seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+            for (const u32 other : seen)
+                if (other != root[patch]) pairs.push_back(std::minmax(root[patch], other));
+        }
+        sortUnique(pairs);
+        const std::lock_guard lock(mutex);
+        done += end - begin;
+        if (progress) progress(double(done) / double(count));
+    });
+    for (std::vector<std::pair<u32, u32>>& pairs : pairsOf) {
+        scan.rootPairs.insert(scan.rootPairs.end(), pairs.begin(), pairs.end());
+        pairs = {};
+    }
+    sortUnique(scan.rootPairs);
+    return scan;
+}
+
+SkyTable uniformSkyTable(const SkyScan& scan)
+{
+    SkyTable table;
+    table.skyPatches.push_back({glm::vec3(0.0f, 0.0f, 1.0f), float(2.0 * std::numbers::pi)});
+    table.rowBegin.push_back(0);
+    for (const float factor : scan.sky) {
+        if (factor > 0.0f) {
+            table.column.push_back(0);
+            table.factor.push_back(factor);
+        }
+        table.rowBegin.push_back(u32(table.column.size()));
+    }
+    return table;
+}
+
+} // namespace helio

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/light/visibility.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "city/base/check.h"
+#include "city/model/triangulate.h"
+
+namespace helio {
+
+struct Visibility::Scene
+{
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    glm::dvec3 origin{0.0};
+    double lift = 0.0;                 // m, how far rays start off a surface
+    std::vector<glm::vec3> corners;    // three a triangle, shared with Embree (padded by one)
+    std::vector<u32> triangleBegin;    // per patch, + 1
+    std::vector<u32> patchOfTriangle;
+    std::vector<float> areaUpTo;       // share of the patch's area up to and with each triangle
+};
+
+namespace {
+
+/// A leaf's rings as separate polygons with their holes.
+std::vector<Polygon3> polygonsOf(const NodeTree& tree, u32 patch)
+{
+    std::vector<Polygon3> polygons;
+    const Node& node = tree.nodes[patch];
+    for (u32 r = node.ringBegin; r < node.ringBegin + node.ringCount; ++r) {
+        if (!tree.ringIsHole[r] || polygons.empty()) polygons.push_back({tree.rings[r], {}});
+        else polygons.back().holes.push_back(tree.rings[r]);
+    }
+    return polygons;
+}
+
+RTCRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, double end)
+{
+    RTCRay ray{};
+    ray.org_x = float(origin.x);
+    ray.org_y = float(origin.y);
+    ray.org_z = float(origin.z);
+    ray.dir_x = float(direction.x);
+    ray.dir_y = float(direction.y);
+    ray.dir_z = float(direction.z);
+    ray.tnear = 0.0f;
+    ray.tfar = float(end);
+    ray.mask = ~0u;
+    return ray;
+}
+
+} // namespace
+
+Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
+{
+    Scene& s = *scene_;
+    glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
+    for (const Ring3& ring : tree.rings) {
+        for (const glm::dvec3& p : ring) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    s.origin = tree.rings.empty() ? glm::dvec3(0.0) : 0.5 * (low + high);
+    // Float coordinates err by half a unit in the last place; the products of a ray intersection by a few more.
+    const double extent = tree.rings.empty() ? 1.0 : glm::length(0.5 * (high - low));
+    s.lift = 16.0 * extent * double(std::numeric_limits<float>::epsilon());
+
+    s.triangleBegin.push_back(0);
+    for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
+        double total = 0.0;
+        const size_t first = s.areaUpTo.size();
+        for (const Polygon3& polygon : polygonsOf(tree, patch)) {
+            std::vector<glm::dvec3> corners(polygon.outer);
+            for (const Ring3& hole : polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
+            for (const auto& t : triangulate(polygon)) {
+                total += 0.5 * glm::length(glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]]));
+                s.areaUpTo.push_back(float(total));
+                s.patchOfTriangle.push_back(patch);
+                for (const u32 corner : t) s.corners.emplace_back(corners[corner] - s.origin);
+            }
+        }
+        for (size_t t = first; t < s.areaUpTo.size(); ++t) s.areaUpTo[t] = total > 0.0 ? float(double(s.areaUpTo[t]) / total) : 1.0f;
+        s.triangleBegin.push_back(u32(s.patchOfTriangle.size()));
+    }
+    s.corners.emplace_back(0.0f); // Embree reads 16 bytes a vertex.
+
+    // One thread: the order of triangles inside the structure, hence ties between coincident ones, must not vary.
+    s.device = rtcNewDevice("threads=1");
+    HELIO_CHECK(s.device != nullptr, "Embree gives no device, error ", int(rtcGetDeviceError(nullptr)));
+    s.scene = rtcNewScene(s.device);
+    rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.corners.data(), 0, sizeof(glm::vec3),
+                               s.corners.size() - 1);
+    auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(u32),
+                                                              std::max<size_t>(1, s.patchOfTriangle.size())));
+    HELIO_CHECK(indices != nullptr, "Embree has no memory for ", s.patchOfTriangle.size(), " triangles");
+    for (u32 i = 0; i < 3 * s.patchOfTriangle.size(); ++i) indices[i] = i;
+    if (s.patchOfTriangle.empty()) indices[0] = indices[1] = indices[2] = 0;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(s.scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(s.scene);
+    const RTCError error = rtcGetDeviceError(s.device);
+    HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", s.patchOfTriangle.size(), " triangles");
+}
+
+Visibility::~Visibility()
+{
+    rtcReleaseScene(scene_->scene);
+    rtcReleaseDevice(scene_->device);
+}
+
+u32 Visibility::triangleCount() const { return u32(scene_->patchOfTriangle.size()); }
+
+glm::dvec3 Visibility::pointOnPatch(u32 patch, double u, double v) const
+{
+    const Scene& s = *scene_;
+    const u32 begin = s.triangleBegin[patch], end = s.triangleBegin[patch + 1];
+    if (begin == end) return s.origin;
+    u32 t = begin;
+    while (t + 1 < end && double(s.areaUpTo[t]) <= u) ++t;
+    const double below = t > begin ? double(s.areaUpTo[t - 1]) : 0.0, share = double(s.areaUpTo[t]) - below;
+    const double w = share > 0.0 ? std::clamp((u - below) / share, 0.0, 1.0) : 0.5;
+    // Area-preserving map of the unit square to a triangle.
+    const double r = std::sqrt(w);
+    const glm::dvec3 a(s.corners[3 * t]), b(s.corners[3 * t + 1]), c(s.corners[3 * t + 2]);
+    return s.origin + (1.0 - r) * a + r * (1.0 - v) * b + r * v * c;
+}
+
+bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal, const glm::dvec3& to, const glm::dvec3& toNormal) const
+{
+    const glm::dvec3 a = from - scene_->origin + scene_->lift * fromNormal;
+    const glm::dvec3 b = to - scene_->origin + scene_->lift * toNormal;
+    RTCRay ray = makeRay(a, b - a, 1.0);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_->scene, &context, &ray);
+    return ray.tfar < 0.0f;
+}
+
+bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const
+{
+    RTCRay ray = makeRay(from - scene_->origin + scene_->lift * normal, direction, double(std::numeric_limits<float>::infinity()));
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_->scene, &context, &ray);
+    return ray.tfar < 0.0f;
+}
+
+RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const
+{
+    RTCRayHit hit{};
+    hit.ray = makeRay(from - scene_->origin + scene_->lift * normal, direction, double(std::numeric_limits<float>::infinity()));
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene_->scene, &context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    const double along = double(hit.hit.Ng_x) * direction.x + double(hit.hit.Ng_y) * direction.y + double(hit.hit.Ng_z) * direction.z;
+    return {scene_->patchOfTriangle[hit.hit.primID], along < 0.0};
+}
+
+} // namespace helio

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
+
+#include "city/model/node_tree.h"
+
+namespace helio {
+
+/// What a ray meets first.
+struct RayHit
+{
+    u32 patch = kNoIndex; ///< kNoIndex: nothing, the ray leaves the scene
+    bool front = false;   ///< the lit side
+};
+
+/// Rays against the polygons of all patches. Patches block from both sides; assets do not block, the patch in whose place
+/// they are drawn does. All positions are in the tree's frame, in double; inside, everything is float relative to the centre
+/// of the scene. Safe to use from several threads.
+class Visibility
+{
+public:
+    /// Triangulates every patch and builds the ray structure. Memory: about 200 bytes a triangle.
+    explicit Visibility(const NodeTree& tree);
+    ~Visibility();
+    Visibility(const Visibility&) = delete;
+    Visibility& operator=(const Visibility&) = delete;
+
+    /// A point of the patch, uniform over its area for u, v uniform in [0, 1); neighbouring u stay near each other.
+    glm::dvec3 pointOnPatch(u32 patch, double u, double v) const;
+    /// True if something lies between two surface points. Each end is lifted off its surface along its unit normal.
+    bool isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal, const glm::dvec3& to, const glm::dvec3& toNormal) const;
+    /// True if something lies in a unit direction from a surface point.
+    bool isBlocked(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const;
+    /// The first patch in a unit direction from a surface point.
+    RayHit trace(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const;
+
+    u32 triangleCount() const;
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+} // namespace helio

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/pack/content_builder.h"
+
+#include <glm/common.hpp>
+#include <limits>
+
+#include "city/model/triangulate.h"
+#include "city/pack/vertex_pack.h"
+
+namespace helio {
+namespace {
+
+std::string joinNames(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (std::string name : names) {
+        std::replace(name.begin(), name.end(), '\n', ' ');
+        text += name;
+        text += '\n';
+    }
+    return text;
+}
+
+/// What rounding to float takes from a coordinate. volatile: g++ 12 at -O2 drops the rounding of two such differences
+/// side by side (double to float and back, vectorised) and gives 0.
+float roundingRest(double x)
+{
+    const volatile float rounded = float(x);
+    return float(x - double(rounded));
+}
+
+class ContentBuilder
+{
+public:
+    ContentBuilder(const NodeTreeBuild& build, std::span<const AssetMesh> assets)
+        : build_(build), tree_(build.tree), assets_(assets)
+    {
+    }
+
+    PackContent build(LightBake light)
+    {
+        addPatches();
+        addNodes();
+        addOutlines();
+        c_.linkRows = std::move(light.links.rowBegin);
+        c_.linkColumns = std::move(light.links.column);
+        c_.linkFactors = std::move(light.links.factor);
+        c_.skyPatches = std::move(light.sky.skyPatches);
+        c_.skyRows = std::move(light.sky.rowBegin);
+        c_.skyColumns = std::move(light.sky.column);
+        c_.skyFactors = std::move(light.sky.factor);
+        addStaticMesh();
+        addAssets();
+        c_.nodeNames = joinNames(tree_.names);
+        c_.surfaceNames = joinNames(tree_.surfaceNames);
+        c_.buildingIds = joinNames(tree_.buildingIds);
+        return std::move(c_);
+    }
+
+private:
+    void addPatches()
+    {
+        c_.patches.reserve(tree_.patchCount());
+        for (u32 i = 0; i < tree_.patchCount(); ++i) {
+            const Patch& p = tree_.patches[i];
+            c_.patches.push_back({.normal = tree_.nodes[i].normal,
+                                  .area = float(p.area),
+                                  .rho = p.rho,
+                                  .emission = p.emission,
+                                  .building = p.building,
+                                  .sourceFace = p.sourceFace,
+                                  .surface = p.surface,
+                                  .flags = 0});
+        }
+    }
+
+    void addNodes()
+    {
+        c_.nodes.reserve(tree_.nodeCount());
+        c_.nodeInfos.reserve(tree_.nodeCount());
+        for (const Node& n : tree_.nodes) {
+            c_.nodes.push_back({n.parent, n.childCount > 0 ? n.childBegin : 0, n.childCount, float(n.area)});
+            c_.nodeInfos.push_back({.centroid = n.centroid,
+                                    .height = n.height,
+                                    .normal = n.normal,
+                                    .kind = u32(n.kind),
+                                    .coverage = float(n.coverage),
+                                    .building = n.building,
+                                    .name = n.name,
+                                    .pad0 = 0});
+        }
+        c_.children = tree_.children;
+    }
+
+    void addOutlines()
+    {
+        c_.outlineRows.push_back(0);
+        for (u32 i = 0; i < tree_.nodeCount(); ++i) {
+            const u32 first = tree_.nodes[i].ringBegin;
+            for (u32 r = first; r < first + tree_.nodes[i].ringCount; ++r) {
+                HELIO_CHECK(c_.outlinePoints.size() < (1u << 31), "too many corners for one tile");
+                c_.outlineRings.push_back(u32(c_.outlinePoints.size()) << 1 | u32(tree_.ringIsHole[r] != 0));
+                for (const glm::dvec3& q : tree_.rings[r]) {
+                    const glm::vec3 rounded(q);
+                    c_.outlinePoints.push_back(rounded);
+                    c_.outlineRests.push_back({roundingRest(q.x), roundingRest(q.y), roundingRest(q.z)});
+                }
+            }
+            c_.outlineRows.push_back(u32(c_.outlineRings.size()));
+        }
+        c_.outlineRings.push_back(u32(c_.outlinePoints.size()) << 1);
+    }
+
+    void include(const glm::vec3& point)
+    {
+        c_.index.boundsMin = glm::min(c_.index.boundsMin, point);
+        c_.index.boundsMax = glm::max(c_.index.boundsMax, point);
+    }
+
+    void addPolygon(u32 patch, const Polygon3& polygon)
+    {
+        HELIO_CHECK(c_.vertices.size() < kNoIndex / 2 && c_.indices.size() < kNoIndex / 2,
+                    "too many vertices for one tile");
+        const u32 base = u32(c_.vertices.size());
+        const u32 normal = packNormal(tree_.nodes[patch].normal),
+                  albedo = packAlbedo(glm::dvec3(tree_.patches[patch].rho));
+        const auto addRing = [&](const Ring3& ring) {
+            for (const glm::dvec3& q : ring) {
+                c_.vertices.push_back({q, patch, normal, albedo});
+                include(c_.vertices.back().position);
+            }
+        };
+        addRing(polygon.outer);
+        for (const Ring3& hole : polygon.holes) addRing(hole);
+        for (const std::array<u32, 3>& triangle : triangulate(polygon))
+            for (const u32 corner : triangle) c_.indices.push_back(base + corner);
+    }
+
+    void addStaticMesh()
+    {
+        c_.index.boundsMin = glm::vec3(std::numeric_limits<float>::max());
+        c_.index.boundsMax = -c_.index.boundsMin;
+        for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
+            if (tree_.patches[patch].asset != kNoIndex) continue;
+            const u32 first = tree_.nodes[patch].ringBegin, end = first + tree_.nodes[patch].ringCount;
+            for (u32 r = first; r < end;) { // An outer ring is followed by its holes.
+                Polygon3 polygon{tree_.rings[r++], {}};
+                while (r < end && tree_.ringIsHole[r] != 0) polygon.holes.push_back(tree_.rings[r++]);
+                addPolygon(patch, polygon);
+            }
+        }
+        c_.instances.push_back({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, 0, 0, 0});
+        if (!c_.indices.empty()) c_.draws.push_back({u32(c_.indices.size()), 1, 0, 0, 0});
+    }
+
+    void addAssets()
+    {
+        for (size_t i = 0; i < build_.instances.size();) {
+            const u32 asset = build_.instances[i].asset;
+            const u32 firstInstance = u32(c_.instances.size());
+            for (; i < build_.instances.size() && build_.instances[i].asset == asset; ++i)
+                addInstance(build_.instances[i]);
+            addMesh(assets_[asset], firstInstance, u32(c_.instances.size()) - firstInstance);
+        }
+    }
+
+    void addInstance(const AssetInstance& instance)
+    {
+        const glm::dmat4x3& m = instance.worldFromAsset;
+        gpu::InstanceRecord record{};
+        for (int row = 0; row < 3; ++row)
+            record.worldFromLocal[row] = glm::dvec4(m[0][row], m[1][row], m[2][row], m[3][row]);
+        record.patchId = instance.patch;
+        c_.instances.push_back(record);
+        const AssetMesh& mesh = assets_[instance.asset];
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 local((corner & 1) != 0 ? mesh.boxMax.x : mesh.boxMin.x,
+                                   (corner & 2) != 0 ? mesh.boxMax.y : mesh.boxMin.y,
+                                   (corner & 4) != 0 ? mesh.boxMax.z : mesh.boxMin.z);
+            include(m * glm::dvec4(local, 1.0));
+        }
+    }
+
+    void addMesh(const AssetMesh& mesh, u32 firstInstance, u32 instanceCount)
+    {
+        c_.draws.push_back(
+            {u32(mesh.indices.size()), instanceCount, u32(c_.indices.size()), u32(c_.vertices.size()), firstInstance});
+        for (size_t v = 0; v < mesh.positions.size(); ++v)
+            c_.vertices.push_back({mesh.positions[v], 0, packNormal(mesh.normals[v]), packAlbedo(mesh.albedos[v])});
+        c_.indices.insert(c_.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+
+    const NodeTreeBuild& build_;
+    const NodeTree& tree_;
+    std::span<const AssetMesh> assets_;
+    PackContent c_;
+};
+
+} // namespace
+
+PackContent buildContent(const NodeTreeBuild& build, std::span<const AssetMesh> assets, LightBake light)
+{
+    return ContentBuilder(build, assets).build(std::move(light));
+}
+
+} // namespace helio

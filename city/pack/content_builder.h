@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+
+#include "city/assets/asset.h"
+#include "city/light/bake_light.h"
+#include "city/model/build_nodes.h"
+#include "city/pack/content.h"
+
+namespace helio {
+
+/// Puts a node tree, its links and the meshes of its assets into the form of the pack. `assets` has one entry an asset
+/// of the derivation, in its order. Draw 0 is the static mesh (instance 0): the polygons of all patches that no asset
+/// fills, with the patch's reflectance as albedo; then comes one draw for each asset that has instances. Of `index`
+/// only the bounds are set.
+PackContent buildContent(const NodeTreeBuild& build, std::span<const AssetMesh> assets, LightBake light);
+
+} // namespace helio

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/pack/pipeline.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "city/base/file.h"
+#include "city/base/hash.h"
+#include "city/grammar/derive.h"
+#include "city/layout/builtin_city.h"
+#include "city/layout/geojson.h"
+#include "city/layout/ground.h"
+#include "city/layout/surfaces.h"
+#include "city/model/build_nodes.h"
+#include "city/pack/asset_library.h"
+#include "city/pack/content_builder.h"
+#include "city/pack/embedded_files.h"
+
+namespace helio {
+namespace {
+
+/// The rule file that is shipped, as embedded.
+constexpr std::string_view kShippedRules = "midrise.cga";
+
+/// Reports steps and takes their times.
+class StepClock
+{
+public:
+    StepClock(const BakeOptions& options, std::vector<StepSeconds>& seconds) : options_(options), seconds_(seconds) {}
+
+    void begin(const char* step)
+    {
+        end();
+        step_ = step;
+        start_ = std::chrono::steady_clock::now();
+        if (options_.light.progress) options_.light.progress(step, 0.0);
+    }
+    void end()
+    {
+        if (step_ == nullptr) return;
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+        seconds_.push_back({step_, took.count()});
+        step_ = nullptr;
+    }
+
+private:
+    const BakeOptions& options_;
+    std::vector<StepSeconds>& seconds_;
+    const char* step_ = nullptr;
+    std::chrono::steady_clock::time_point start_;
+};
+
+/// The bake in the making; one function a step.
+class Pipeline
+{
+public:
+    explicit Pipeline(const BakeOptions& options)
+        : options_(options), clock_(options, out_.stats.seconds), library_(assetFolders(options))
+    {
+    }
+
+    Result<BakeResult> run()
+    {
+        const bool scene = !options_.surfaces.empty();
+        if (scene && options_.input.empty())
+            return Error{
+                concat(options_.surfaces.string(), ": a CSV of surfaces goes with an OBJ file, and none is given")};
+        if (!scene && options_.input.extension() == ".obj")
+            return Error{concat(options_.input.string(),
+                                ": an OBJ scene needs the CSV of its surfaces; give it with --surfaces")};
+        if (Status status = scene ? readScene() : growCity(); !status) return status.error();
+        if (Status status = loadAssets(); !status) return status.error();
+        buildTree();
+        if (build_.tree.patches.empty())
+            return Error{concat(sourceName(), ": nothing to light: no surface has an area")};
+        lightTree();
+        describe();
+        clock_.end();
+        return std::move(out_);
+    }
+
+private:
+    static std::vector<std::filesystem::path> assetFolders(const BakeOptions& options)
+    {
+        if (options.rules.empty()) return {};
+        const std::filesystem::path folder = options.rules.parent_path();
+        return {folder / "assets", folder / ".." / "assets"};
+    }
+
+    std::string sourceName() const
+    {
+        return options_.input.empty() ? "built-in city" : options_.input.filename().string();
+    }
+
+    Status hashInput(const std::filesystem::path& path)
+    {
+        Result<std::string> text = readTextFile(path);
+        if (!text) return text.error();
+        out_.content.index.inputHash = mixSeed(out_.content.index.inputHash, hashText(*text));
+        return Nothing{};
+    }
+
+    Status readScene()
+    {
+        clock_.begin("import");
+        for (const std::filesystem::path& path : {options_.input, options_.surfaces})
+            if (Status status = hashInput(path); !status) return status;
+        Result<ShapeTree> shapes = readSurfaces(options_.input, options_.surfaces);
+        if (!shapes) return shapes.error();
+        shapes_ = std::move(*shapes);
+        for (const Shape& shape : shapes_.shapes)
+            if (shape.sourceFace != kNoIndex)
+                out_.content.index.sourceFaceCount = std::max(out_.content.index.sourceFaceCount, shape.sourceFace + 1);
+        return Nothing{};
+    }
+
+    Status growCity()
+    {
+        clock_.begin("import");
+        Result<Layout> layout = importLayout();
+        if (!layout) return layout.error();
+        if (layout->footprints.empty()) return Error{concat(sourceName(), ": no footprint to build on")};
+        clock_.begin("rules");
+        Result<RuleSet> rules = readRules();
+        if (!rules) return rules.error();
+        clock_.begin("ground");
+        addGround(*layout);
+        clock_.begin("derivation");
+        DeriveOptions derivation;
+        derivation.seed = options_.light.seed;
+        derivation.jobs = options_.light.jobs;
+        derivation.assetBox = [&](const std::string& name) -> Result<AssetBox> {
+            Result<const AssetMesh*> mesh = library_.find(name);
+            if (!mesh) return mesh.error();
+            return AssetBox{(*mesh)->boxMin, (*mesh)->boxMax};
+        };
+        Result<Derivation> derived = derive(*rules, layout->footprints, derivation);
+        if (!derived) return derived.error();
+        shapes_ = std::move(derived->shapes);
+        appendGround(shapes_, *layout);
+        out_.stats.reports = std::move(derived->reports);
+        out_.stats.notes = std::move(layout->notes);
+        out_.stats.notes.insert(out_.stats.notes.end(), derived->warnings.begin(), derived->warnings.end());
+        out_.content.index.crs = layout->crs;
+        out_.content.index.origin = layout->origin;
+        return Nothing{};
+    }
+
+    Result<Layout> importLayout()
+    {
+        if (options_.input.empty()) return builtinCity(options_.light.seed);
+        if (Status status = hashInput(options_.input); !status) return status.error();
+        ImportOptions import;
+        import.defaultHeight = options_.defaultHeight;
+        return importGeoJson(options_.input, import);
+    }
+
+    Result<RuleSet> readRules()
+    {
+        std::string text, name(kShippedRules);
+        if (options_.rules.empty()) {
+            for (const EmbeddedFile& file : embeddedFiles())
+                if (file.name == kShippedRules)
+                    text.assign(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+            HELIO_CHECK(!text.empty(), kShippedRules);
+        } else {
+            Result<std::string> read = readTextFile(options_.rules);
+            if (!read) return read.error();
+            text = std::move(*read);
+            name = options_.rules.string();
+        }
+        out_.content.index.rules = std::filesystem::path(name).filename().string();
+        out_.content.index.rulesHash = hashText(text);
+        return parseRules(text, name);
+    }
+
+    Status loadAssets()
+    {
+        clock_.begin("assets");
+        for (const std::string& name : shapes_.assets) {
+            Result<const AssetMesh*> mesh = library_.find(name);
+            if (!mesh) return mesh.error();
+            meshes_.push_back(**mesh);
+            summaries_.push_back({meshes_.back().rho, 0.5 * (meshes_.back().boxMin + meshes_.back().boxMax)});
+            out_.content.index.rulesHash = mixSeed(out_.content.index.rulesHash, library_.hashOf(name));
+        }
+        return Nothing{};
+    }
+
+    void buildTree()
+    {
+        clock_.begin("nodes");
+        build_ = buildNodes(shapes_, summaries_);
+        shapes_ = {};
+    }
+
+    void lightTree()
+    {
+        clock_.begin("light");
+        LightBake light = bakeLight(build_.tree, options_.light);
+        out_.stats.light = light.stats;
+        clock_.begin("content");
+        PackIndex index = std::move(out_.content.index);
+        out_.content = buildContent(build_, meshes_, std::move(light));
+        index.boundsMin = out_.content.index.boundsMin;
+        index.boundsMax = out_.content.index.boundsMax;
+        out_.content.index = std::move(index);
+    }
+
+    void describe()
+    {
+        PackIndex& index = out_.content.index;
+        index.latitudeDeg = options_.latitudeDeg;
+        index.longitudeDeg = options_.longitudeDeg;
+        index.northDeg = options_.northDeg;
+        index.source = sourceName();
+        index.method = methodName(options_.light.method);
+        index.seed = options_.light.seed;
+        const nlohmann::ordered_json settings = {{"epsilon", options_.light.formFactorEpsilon},
+                                                 {"rays_per_patch", options_.light.raysPerPatch},
+                                                 {"rays_per_link", options_.light.raysPerLink},
+                                                 {"cutoff_m", options_.light.cutoff},
+                                                 {"default_height_m", options_.defaultHeight}};
+        index.options = settings.dump();
+
+        BakeStats& stats = out_.stats;
+        stats.buildings = u32(build_.tree.buildingIds.size());
+        stats.nodes = build_.tree.nodeCount();
+        stats.patches = build_.tree.patchCount();
+        stats.instances = u32(build_.instances.size());
+        for (const gpu::DrawRecord& draw : out_.content.draws)
+            stats.triangles += u64(draw.indexCount / 3) * draw.instanceCount;
+        stats.degeneratePolygons = build_.degenerateCount;
+        stats.orphanOverlays = build_.orphanOverlayCount;
+        stats.areaDefect = build_.areaDefect;
+    }
+
+    const BakeOptions& options_;
+    BakeResult out_;
+    StepClock clock_;
+    AssetLibrary library_;
+    ShapeTree shapes_;
+    std::vector<AssetMesh> meshes_; ///< parallel to ShapeTree::assets
+    std::vector<AssetSummary> summaries_;
+    NodeTreeBuild build_;
+};
+
+} // namespace
+
+Result<BakeResult> bake(const BakeOptions& options)
+{
+    return Pipeline(options).run();
+}
+
+const char* methodName(LinkMethod method)
+{
+    switch (method) {
+    case LinkMethod::Heliopolis:
+        return "heliopolis";
+    case LinkMethod::Paper:
+        return "paper";
+    case LinkMethod::PaperLiteral:
+        return "paper-literal";
+    }
+    HELIO_CHECK(false, int(method));
+}
+
+} // namespace helio

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "city/light/bake_light.h"
+#include "city/pack/content.h"
+
+namespace helio {
+
+/// What to bake, and how.
+struct BakeOptions
+{
+    std::filesystem::path input;    ///< GeoJSON footprints, or OBJ polygons with `surfaces`; empty: the built-in city
+    std::filesystem::path surfaces; ///< CSV of an OBJ scene
+    std::filesystem::path
+        rules; ///< rule file; empty: the shipped one. Assets: its folder's assets/, ../assets/, the shipped ones
+    double latitudeDeg = 50.1, longitudeDeg = 14.4; ///< of the tile's origin, for suns by date; degrees
+    double northDeg = 0.0;                          ///< clockwise from true north to +y, degrees
+    double defaultHeight = 12.0;                    ///< m, of footprints without any hint of their height
+    LightOptions light; ///< method, thresholds, jobs and seed; jobs and seed hold for all steps
+};
+
+/// What a bake says about itself. Only the seconds and the memory differ from run to run.
+struct BakeStats
+{
+    u32 buildings = 0, nodes = 0, patches = 0, instances = 0;
+    u64 triangles = 0; ///< drawn, instances counted
+    u32 degeneratePolygons = 0, orphanOverlays = 0;
+    double areaDefect = 0.0; ///< area ledger: largest |area - children's sum| / area of tiling nodes
+    LightStats light;
+    std::map<std::string, double> reports; ///< report() of the rules, summed per key
+    std::vector<std::string> notes;        ///< repaired or skipped input and warnings of the rules, one line each
+    std::vector<StepSeconds> seconds;      ///< of each step, in order
+};
+
+struct BakeResult
+{
+    PackContent content;
+    BakeStats stats;
+};
+
+/// Footprints or polygons to the content of a pack: import, ground, rules, assets, node tree, links. Content depends on
+/// the input and the options alone, not on light.jobs. Errors are one line; nothing is written.
+Result<BakeResult> bake(const BakeOptions& options);
+
+/// "heliopolis", "paper" or "paper-literal".
+const char* methodName(LinkMethod method);
+
+} // namespace helio

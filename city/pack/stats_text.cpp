@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/pack/stats_text.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace helio {
+namespace {
+
+constexpr size_t kMostNotes = 10; ///< shown; the JSON file has them all
+
+template <class... Ts> std::string printed(const char* format, Ts... values)
+{
+    char buffer[512];
+    std::snprintf(buffer, sizeof buffer, format, values...);
+    return buffer;
+}
+
+template <class... Ts> void line(std::string& text, const char* format, Ts... values)
+{
+    text += printed(format, values...) + '\n';
+}
+
+void rangeLine(std::string& text, const char* name, const MinMeanMax& range)
+{
+    line(text, "  %-20s min %.5f  mean %.5f  max %.5f", name, range.min, range.mean, range.max);
+}
+
+void secondsLine(std::string& text, const char* name, const std::vector<StepSeconds>& steps)
+{
+    double total = 0.0;
+    text += printed("  %-20s ", name);
+    for (const StepSeconds& step : steps) {
+        text += printed("%s %.2f, ", step.step.c_str(), step.seconds);
+        total += step.seconds;
+    }
+    line(text, "total %.2f", total);
+}
+
+nlohmann::ordered_json rangeJson(const MinMeanMax& range)
+{
+    return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
+}
+
+nlohmann::ordered_json secondsJson(const std::vector<StepSeconds>& steps)
+{
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const StepSeconds& step : steps) json.push_back({{"step", step.step}, {"seconds", step.seconds}});
+    return json;
+}
+
+} // namespace
+
+double peakMemoryMiB()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024.0; // Linux counts KiB.
+}
+
+std::string statsText(const BakeStats& stats, double peakMiB)
+{
+    std::string text;
+    line(text, "  buildings %u, nodes %u, patches %u, asset instances %u, triangles %llu", stats.buildings, stats.nodes,
+         stats.patches, stats.instances, static_cast<unsigned long long>(stats.triangles));
+    line(text, "  links %llu, %.1f per patch", static_cast<unsigned long long>(stats.light.linkCount),
+         stats.light.linksPerPatch);
+    rangeLine(text, "row sum + sky (1)", stats.light.closure);
+    rangeLine(text, "row sum of links", stats.light.rowSum);
+    rangeLine(text, "row sum by rays", stats.light.rayRowSum);
+    rangeLine(text, "sky by rays", stats.light.sky);
+    line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * stats.light.closureDefect,
+         std::abs(stats.light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
+    line(text, "  %-20s %.2e", "area-ledger defect", stats.areaDefect);
+    if (stats.degeneratePolygons > 0)
+        line(text, "  %-20s %u (area below 1e-8 m2)", "dropped polygons", stats.degeneratePolygons);
+    if (stats.orphanOverlays > 0)
+        line(text, "  %-20s %u (no patch behind them)", "dropped assets", stats.orphanOverlays);
+    for (const auto& [key, value] : stats.reports) line(text, "  report %-13s %.6g", key.c_str(), value);
+    secondsLine(text, "seconds", stats.seconds);
+    secondsLine(text, "of which light", stats.light.seconds);
+    line(text, "  %-20s %.0f MiB", "peak memory", peakMiB);
+    for (size_t i = 0; i < std::min(stats.notes.size(), kMostNotes); ++i) text += "  note: " + stats.notes[i] + '\n';
+    if (stats.notes.size() > kMostNotes) line(text, "  and %zu more notes", stats.notes.size() - kMostNotes);
+    return text;
+}
+
+std::string statsJson(const BakeStats& stats, double peakMiB)
+{
+    nlohmann::ordered_json json;
+    json["buildings"] = stats.buildings;
+    json["nodes"] = stats.nodes;
+    json["patches"] = stats.patches;
+    json["asset_instances"] = stats.instances;
+    json["triangles"] = stats.triangles;
+    json["links"] = stats.light.linkCount;
+    json["links_per_patch"] = stats.light.linksPerPatch;
+    json["planar_root_pairs"] = stats.light.rootPairCount;
+    json["pairs_evaluated"] = stats.light.pairsEvaluated;
+    json["rays_per_patch"] = stats.light.raysPerPatch;
+    json["row_sum_plus_sky"] = rangeJson(stats.light.closure);
+    json["row_sum_links"] = rangeJson(stats.light.rowSum);
+    json["row_sum_rays"] = rangeJson(stats.light.rayRowSum);
+    json["sky_rays"] = rangeJson(stats.light.sky);
+    json["closure_defect"] = stats.light.closureDefect;
+    json["area_ledger_defect"] = stats.areaDefect;
+    json["dropped_polygons"] = stats.degeneratePolygons;
+    json["dropped_assets"] = stats.orphanOverlays;
+    json["reports"] = stats.reports;
+    json["seconds"] = secondsJson(stats.seconds);
+    json["seconds_light"] = secondsJson(stats.light.seconds);
+    json["peak_memory_mib"] = peakMiB;
+    json["notes"] = stats.notes;
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+} // namespace helio

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "city/format/index_text.h"
+#include "city/pack/content.h"
+
+namespace helio {
+
+struct WriteOptions
+{
+    /// Packs each section that gets smaller by it with zstd (level 3). Such sections are unpacked into memory when the
+    /// pack is opened, all others are mapped.
+    bool zstd = false;
+    /// Asked between chunks; once it says true, what was written is removed and the error says "interrupted".
+    std::function<bool()> cancelled;
+};
+
+/// The bytes of a tile file, in memory: for tests and tools; writePack does not need them at once.
+struct EncodedTile
+{
+    std::vector<std::byte> bytes;
+    TileEntry entry;
+};
+EncodedTile encodeTile(const TileView& tile, bool zstd = false);
+
+/// Writes a pack folder: to a temporary folder beside the target, then renamed into its place. An existing pack is
+/// replaced; any other folder or file at the target is an error, and so is content that a reader would refuse. Bytes
+/// depend on the content and the options alone.
+Status writePack(const PackContent& content, const std::filesystem::path& folder, const WriteOptions& options = {});
+
+/// Says in one line why a pack cannot be written to `folder` (its parent is missing, something else lies there): to be
+/// asked before hours of work.
+Status checkPackTarget(const std::filesystem::path& folder);
+
+} // namespace helio

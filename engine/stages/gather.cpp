@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stages/gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/graph/pass_context.h"
+#include "shaders/embedded.h"
+
+namespace helio {
+
+LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light, bool emission,
+                        bool warm)
+{
+    light = graph.addPass("first light", [&](PassBuilder& pass) {
+        const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
+        const auto sun = pass.read(direct.sun, Use::ComputeRead);
+        const auto sky = pass.read(direct.sky, Use::ComputeRead);
+        const auto indirect = pass.read(light.irradiance, Use::ComputeRead);
+        const LightRefs out{pass.write(light.b0, Use::ComputeWrite), pass.write(light.radiosity, Use::ComputeWrite),
+                            light.irradiance};
+        const gpu::FirstLightParams params{tile.patchCount, emission ? 1.0f : 0.0f, warm ? 1.0f : 0.0f, 0};
+        pass.record([=](PassContext& ctx) {
+            ctx.dispatch(shaders::kFirstLightComp,
+                         {storage(gpu::kFirstPatches, patches), storage(gpu::kFirstSun, sun), storage(gpu::kFirstSky, sky),
+                          storage(gpu::kFirstIndirect, indirect), storage(gpu::kFirstB0, out.b0),
+                          storage(gpu::kFirstRadiosity, out.radiosity)},
+                         params, groupsFor(params.patchCount, gpu::kSolveGroup));
+        });
+        return out;
+    });
+    light.radiosity = addPull(graph, tile, light.radiosity);
+    return light;
+}
+
+Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values, const std::string& name)
+{
+    return graph.addPass(name, [&](PassBuilder& pass) {
+        const auto rows = pass.read(pass.import(tile.childRows), Use::ComputeRead);
+        const auto children = pass.read(pass.import(tile.children), Use::ComputeRead);
+        const auto out = pass.write(values, Use::ComputeReadWrite);
+        pass.record([=, levels = tile.levels, patchCount = tile.patchCount](PassContext& ctx) {
+            for (const TreeLevel& level : levels) {
+                ctx.dispatch(shaders::kPullComp,
+                             {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
+                              storage(gpu::kPullValues, out)},
+                             gpu::LevelParams{level.first, level.count, patchCount}, groupsFor(level.count, gpu::kSolveGroup));
+                ctx.barrier();
+            }
+        });
+        return out;
+    });
+}
+
+Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values)
+{
+    return graph.addPass("push", [&](PassBuilder& pass) {
+        const auto parents = pass.read(pass.import(tile.parents), Use::ComputeRead);
+        const auto out = pass.write(values, Use::ComputeReadWrite);
+        // Downwards; the patches are one level more, and the top level is in it for roots only: it does nothing there.
+        std::vector<TreeLevel> levels(tile.levels.rbegin(), tile.levels.rend());
+        levels.push_back({0, tile.patchCount});
+        pass.record([=, patchCount = tile.patchCount](PassContext& ctx) {
+            for (const TreeLevel& level : levels) {
+                ctx.dispatch(shaders::kPushComp, {storage(gpu::kPushParents, parents), storage(gpu::kPushValues, out)},
+                             gpu::LevelParams{level.first, level.count, patchCount}, groupsFor(level.count, gpu::kSolveGroup));
+                ctx.barrier();
+            }
+        });
+        return out;
+    });
+}
+
+Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity, Ref<Buffer> irradiance)
+{
+    return graph.addPass("gather", [&](PassBuilder& pass) {
+        struct Page
+        {
+            Ref<Buffer> pairs;
+            gpu::GatherParams params;
+        };
+        std::vector<Page> pages;
+        for (const LinkPageBuffer& links : tile.links)
+            pages.push_back({pass.read(pass.import(links.pairs), Use::ComputeRead),
+                             {links.page.rowFirst, links.page.rowCount, links.page.pairFirst}});
+        const auto rows = pass.read(pass.import(tile.linkRows), Use::ComputeRead);
+        const auto from = pass.read(radiosity, Use::ComputeRead);
+        const auto to = pass.write(irradiance, Use::ComputeWrite);
+        const ShaderCode& shader = tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp;
+        pass.record([=, &shader](PassContext& ctx) {
+            for (const Page& page : pages)
+                ctx.dispatch(shader,
+                             {storage(gpu::kGatherRows, rows),
+                              texels(gpu::kGatherLinks, page.pairs, VK_FORMAT_R32G32B32A32_UINT),
+                              texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
+                              storage(gpu::kGatherIrradiance, to)},
+                             page.params, groupsFor(page.params.rowCount, gpu::kSolveGroup));
+        });
+        return to;
+    });
+}
+
+u32 updateGroups(const TileTables& tile)
+{
+    constexpr u32 kPatches = gpu::kSolveGroup * gpu::kUpdateRun;
+    return (tile.patchCount + kPatches - 1) / kPatches;
+}
+
+UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials, Ref<Buffer> residual)
+{
+    light.irradiance = addGather(graph, tile, light.radiosity, light.irradiance);
+    light.irradiance = addPush(graph, tile, light.irradiance);
+    const u32 partialCount = updateGroups(tile);
+    const auto updated = graph.addPass("update", [&](PassBuilder& pass) {
+        const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
+        const auto b0 = pass.read(light.b0, Use::ComputeRead);
+        const auto irradiance = pass.read(light.irradiance, Use::ComputeRead);
+        const auto radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
+        const auto sums = pass.write(partials, Use::ComputeWrite);
+        pass.record([=, params = gpu::UpdateParams{tile.patchCount}](PassContext& ctx) {
+            ctx.dispatch(shaders::kUpdateComp,
+                         {storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
+                          storage(gpu::kUpdateIrradiance, irradiance), storage(gpu::kUpdateRadiosity, radiosity),
+                          storage(gpu::kUpdatePartials, sums)},
+                         params, groupsFor(u64(partialCount) * gpu::kSolveGroup, gpu::kSolveGroup));
+        });
+        return std::pair(radiosity, sums);
+    });
+    light.radiosity = addPull(graph, tile, updated.first);
+    const auto result = graph.addPass("residual", [&](PassBuilder& pass) {
+        const auto from = pass.read(updated.second, Use::ComputeRead);
+        const auto to = pass.write(residual, Use::ComputeWrite);
+        pass.record([=, params = gpu::ResidualParams{partialCount}](PassContext& ctx) {
+            ctx.dispatch(shaders::kResidualComp,
+                         {storage(gpu::kResidualPartials, from), storage(gpu::kResidualResult, to)}, params, Groups{});
+        });
+        return to;
+    });
+    return {light, result};
+}
+
+double residualOf(const gpu::ResidualRecord& sums)
+{
+    double worst = 0.0;
+    for (int c = 0; c < 4; ++c)
+        if (sums.change[c] > 0.0f && sums.scale[c] > 0.0f)
+            worst = std::max(worst, std::sqrt(double(sums.change[c]) / double(sums.scale[c])));
+    return worst;
+}
+
+} // namespace helio

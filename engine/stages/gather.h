@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <string>
+
+#include "engine/graph/frame_graph.h"
+#include "engine/stream/tile_tables.h"
+
+namespace helio {
+
+/// First-hand light of every patch, vec4 each, W/m2.
+struct DirectLight
+{
+    Ref<Buffer> sun, sky;
+};
+
+/// What the sweeps work on. All vec4, W/m2.
+struct LightRefs
+{
+    Ref<Buffer> b0;         ///< a patch: emission + rho (E_sun + E_sky)
+    Ref<Buffer> radiosity;  ///< a node: B
+    Ref<Buffer> irradiance; ///< a node: what arrives over links; at the patches E_indirect
+};
+
+/// Before the sweeps: B0, and B = B0 + rho E_indirect with the E_indirect of the last solve (warm) or none (cold), pulled up.
+LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light, bool emission,
+                        bool warm);
+
+/// X_parent = sum A_child X_child / A_parent, level by level, in place (vec4 a node).
+[[nodiscard]] Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values,
+                                  const std::string& name = "pull");
+/// E_child += E_parent, level by level, in place (vec4 a node).
+[[nodiscard]] Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values);
+/// E_i = sum F_ij B_j over the links of row i, at every node.
+[[nodiscard]] Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity, Ref<Buffer> irradiance);
+
+struct UpdateRefs
+{
+    LightRefs light;
+    Ref<Buffer> residual; ///< ResidualRecord
+};
+/// One Jacobi sweep: gather, push, B = B0 + rho E at the patches, pull; and the sums of the residual of the B before.
+/// partials: scratch, updateGroups(tile) ResidualRecords.
+UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials, Ref<Buffer> residual);
+
+/// Work groups of the update, one partial sum each.
+u32 updateGroups(const TileTables& tile);
+
+/// ||B_new - B|| / ||B_new - B0||, area weighted, of the channel where it is largest; 0 when nothing is reflected.
+double residualOf(const gpu::ResidualRecord& sums);
+
+} // namespace helio

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stages/shade.h"
+
+#include "shaders/embedded.h"
+#include "shaders/shared/solve.h"
+
+namespace helio {
+
+Ref<Buffer> addSmoothLight(FrameGraph& graph, const CornerTables& corners, Ref<Buffer> sky, Ref<Buffer> indirect,
+                           Ref<Buffer> values)
+{
+    return graph.addPass("smooth light", [&](PassBuilder& pass) {
+        const auto rows = pass.read(pass.import(corners.rows), Use::ComputeRead);
+        const auto patches = pass.read(pass.import(corners.patches), Use::ComputeRead);
+        const auto fromSky = pass.read(sky, Use::ComputeRead);
+        const auto fromPatches = pass.read(indirect, Use::ComputeRead);
+        const auto out = pass.write(values, Use::ComputeWrite);
+        pass.record([=, count = corners.count](PassContext& ctx) {
+            ctx.dispatch(shaders::kSmoothLightComp,
+                         {storage(gpu::kSmoothRows, rows), storage(gpu::kSmoothPatches, patches),
+                          storage(gpu::kSmoothSky, fromSky), storage(gpu::kSmoothIndirect, fromPatches),
+                          storage(gpu::kSmoothValues, out)},
+                         gpu::SmoothParams{count}, groupsFor(count, gpu::kSolveGroup));
+        });
+        return out;
+    });
+}
+
+ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const ShadeInputs& in,
+                        ShadeTargets targets)
+{
+    return graph.addPass("forward", [&](PassBuilder& pass) {
+        const CityMesh mesh(pass, tile, list);
+        const auto patches = pass.read(pass.import(tile.patches), Use::FragmentRead);
+        const auto view = pass.read(in.view, Use::VertexAndFragmentRead);
+        const auto shadow = pass.read(in.shadow, Use::FragmentSample);
+        const auto sun = pass.read(in.sun, Use::FragmentRead);
+        const auto sky = pass.read(in.sky, Use::FragmentRead);
+        const auto indirect = pass.read(in.indirect, Use::FragmentRead);
+        const auto radiosity = pass.read(in.radiosity, Use::FragmentRead);
+        const auto corners = pass.read(in.cornerOfVertex, Use::VertexRead);
+        const auto smooth = pass.read(in.smooth, Use::VertexRead);
+        const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget), pass.write(targets.depth, Use::DepthTarget)};
+        pass.record([=, mode = in.mode](PassContext& ctx) {
+            RenderTargets to;
+            to.colors = {{out.radiance, VkClearColorValue{}, 0}};
+            to.depth = {out.depth, 0.0f, 0};
+            ctx.render(to, [&](Drawing& drawing) {
+                GraphicsPipelineDesc city;
+                city.vertex = &shaders::kForwardVert;
+                city.fragment = &shaders::kForwardFrag;
+                city.depthCompare = VK_COMPARE_OP_GREATER;
+                city.constants = {{0, mode}};
+                CityMesh::describe(city, true);
+                drawing.pipeline(std::move(city));
+                drawing.bind({storage(gpu::kForwardView, view), sampled(gpu::kForwardShadow, shadow, Sampler::Shadow, {0, 0, true}),
+                              storage(gpu::kForwardPatches, patches), storage(gpu::kForwardSun, sun),
+                              storage(gpu::kForwardSky, sky), storage(gpu::kForwardIndirect, indirect),
+                              storage(gpu::kForwardRadiosity, radiosity), storage(gpu::kForwardCorners, corners),
+                              storage(gpu::kForwardSmooth, smooth)});
+                mesh.draw(ctx, drawing);
+
+                // The background lies at depth 0, where nothing was drawn.
+                GraphicsPipelineDesc background;
+                background.vertex = &shaders::kBackgroundVert;
+                background.fragment = &shaders::kBackgroundFrag;
+                background.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+                background.depthWrite = false;
+                background.constants = {{0, mode}};
+                drawing.pipeline(std::move(background));
+                drawing.bind({storage(gpu::kForwardView, view)});
+                drawing.draw(3);
+            });
+        });
+        return out;
+    });
+}
+
+Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display, const gpu::ToneParams& params)
+{
+    return graph.addPass("tone", [&](PassBuilder& pass) {
+        const auto from = pass.read(radiance, Use::ComputeSample);
+        const auto to = pass.write(display, Use::ComputeWrite);
+        pass.record([=](PassContext& ctx) {
+            ctx.dispatch(shaders::kToneComp,
+                         {sampled(gpu::kToneInput, from, Sampler::Nearest), storage(gpu::kToneOutput, to)}, params,
+                         groupsFor2D(params.width, params.height, gpu::kToneGroup, gpu::kToneGroup));
+        });
+        return to;
+    });
+}
+
+} // namespace helio

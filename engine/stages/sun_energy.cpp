@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stages/sun_energy.h"
+
+#include "engine/graph/pass_context.h"
+#include "engine/stages/gather.h"
+#include "shaders/embedded.h"
+#include "shaders/shared/sun.h"
+
+namespace helio {
+
+SunEnergyRefs addSunEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> counts, Ref<Buffer> density,
+                           SunEnergyRefs to, const SunEnergyInput& input)
+{
+    gpu::SunEnergyParams params{};
+    params.direction = input.towardsSun;
+    params.texelArea = float(input.texelArea);
+    params.dni = input.dni;
+    params.patchCount = tile.patchCount;
+    params.minSamples = kMinSunSamples;
+    params.minCosine = kMinSunCosine;
+    const Groups groups = groupsFor(tile.patchCount, gpu::kSunGroup);
+
+    density = graph.addPass("sun density", [&](PassBuilder& pass) {
+        const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
+        const auto from = pass.read(counts, Use::ComputeRead);
+        const auto out = pass.write(density, Use::ComputeWrite);
+        pass.record([=](PassContext& ctx) {
+            ctx.dispatch(
+                shaders::kSunDensityComp,
+                {storage(gpu::kSunCounts, from), storage(gpu::kSunPatches, patches), storage(gpu::kSunDensity, out)}, params,
+                groups);
+        });
+        return out;
+    });
+    density = addPull(graph, tile, density, "sun pull");
+    to.tally = addFill(graph, to.tally, 0);
+    return graph.addPass("sun energy", [&](PassBuilder& pass) {
+        const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
+        const auto nodes = pass.read(pass.import(tile.nodes), Use::ComputeRead);
+        const auto from = pass.read(density, Use::ComputeRead);
+        const SunEnergyRefs out{pass.write(to.irradiance, Use::ComputeWrite), pass.write(to.tally, Use::ComputeReadWrite)};
+        pass.record([=](PassContext& ctx) {
+            ctx.dispatch(shaders::kSunEnergyComp,
+                         {storage(gpu::kSunPatches, patches), storage(gpu::kSunDensity, from),
+                          storage(gpu::kSunNodes, nodes), storage(gpu::kSunIrradiance, out.irradiance),
+                          storage(gpu::kSunTally, out.tally)},
+                         params, groups);
+        });
+        return out;
+    });
+}
+
+} // namespace helio

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stages/sun_raster.h"
+
+#include "shaders/embedded.h"
+#include "shaders/shared/sun.h"
+
+namespace helio {
+
+SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SunView& sun, u32 view,
+                         SunPictures pictures)
+{
+    return graph.addPass(concat("sun raster ", view), [&](PassBuilder& pass) {
+        const CityMesh mesh(pass, tile, list);
+        SunPictures out;
+        out.ids = pass.write(pictures.ids, Use::ColorTarget);
+        out.depth = pass.write(pictures.depth, view == 0 ? Use::DepthTarget : Use::DepthTargetLoad);
+        pass.record([=, params = gpu::SunRasterParams{sun.clipFromWorld(view)}](PassContext& ctx) {
+            RenderTargets targets;
+            VkClearColorValue background{};
+            background.uint32[0] = gpu::kNone;
+            targets.colors = {{out.ids, background, 0}};
+            targets.depth = {out.depth, 1.0f, view};
+            ctx.render(targets, [&](Drawing& drawing) {
+                GraphicsPipelineDesc desc;
+                desc.vertex = &shaders::kSunRasterVert;
+                desc.fragment = &shaders::kSunRasterFrag;
+                CityMesh::describe(desc, false);
+                drawing.pipeline(std::move(desc));
+                drawing.push(params);
+                mesh.draw(ctx, drawing);
+            });
+        });
+        return out;
+    });
+}
+
+} // namespace helio

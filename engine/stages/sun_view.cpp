@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stages/sun_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "city/base/check.h"
+
+namespace helio {
+
+namespace {
+
+double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Convex hull, counter-clockwise, without collinear points (Andrew's monotone chain).
+std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points)
+{
+    std::sort(points.begin(), points.end(),
+              [](glm::dvec2 a, glm::dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    std::vector<glm::dvec2> hull;
+    const auto extend = [&](size_t base, glm::dvec2 p) {
+        while (hull.size() >= base + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) hull.pop_back();
+        hull.push_back(p);
+    };
+    for (const glm::dvec2 p : points) extend(0, p);
+    const size_t lower = hull.size() - 1;
+    for (size_t i = points.size() - 1; i-- > 0;) extend(lower, points[i]);
+    hull.pop_back();
+    return hull;
+}
+
+struct Rectangle
+{
+    glm::dvec2 axis{1.0, 0.0}; ///< unit, of the longer side
+    glm::dvec2 lo{0.0}, hi{0.0};
+};
+
+glm::dvec2 turnLeft(glm::dvec2 a) { return {-a.y, a.x}; }
+
+Rectangle boundsAlong(const std::vector<glm::dvec2>& points, glm::dvec2 axis)
+{
+    Rectangle r{axis, glm::dvec2(std::numeric_limits<double>::max()), glm::dvec2(std::numeric_limits<double>::lowest())};
+    for (const glm::dvec2 p : points) {
+        const glm::dvec2 q(glm::dot(p, axis), glm::dot(p, turnLeft(axis)));
+        r.lo = glm::min(r.lo, q);
+        r.hi = glm::max(r.hi, q);
+    }
+    return r;
+}
+
+/// The rectangle of smallest area around points has a side along an edge of their hull (Freeman and Shapira 1975).
+Rectangle smallestRectangle(const std::vector<glm::dvec2>& points)
+{
+    const std::vector<glm::dvec2> hull = convexHull(points);
+    Rectangle best = boundsAlong(hull, {1.0, 0.0});
+    const auto area = [](const Rectangle& r) { return (r.hi.x - r.lo.x) * (r.hi.y - r.lo.y); };
+    for (size_t i = 0; i < hull.size(); ++i) {
+        const glm::dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+        const double length = glm::length(edge);
+        if (length < 1e-9) continue;
+        const Rectangle r = boundsAlong(hull, edge / length);
+        if (area(r) < area(best)) best = r;
+    }
+    if (best.hi.y - best.lo.y > best.hi.x - best.lo.x) best = boundsAlong(hull, turnLeft(best.axis));
+    return best;
+}
+
+} // namespace
+
+glm::mat4 SunView::clipFromWorld(u32 view) const
+{
+    const float x = float(view % gridX), y = float(view / gridX);
+    glm::mat4 clipFromGrid(1.0f);
+    clipFromGrid[0][0] = 2.0f;
+    clipFromGrid[1][1] = 2.0f;
+    clipFromGrid[3] = glm::vec4(-2.0f * x - 1.0f, -2.0f * y - 1.0f, 0.0f, 1.0f);
+    return clipFromGrid * gridFromWorld;
+}
+
+SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunViewOptions& options)
+{
+    HELIO_CHECK(!boxes.empty() && std::abs(glm::length(towardsSun) - 1.0) < 1e-6, boxes.size(), " boxes, |sun| = ",
+                glm::length(towardsSun));
+    const glm::dvec3 helper = std::abs(towardsSun.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(helper, towardsSun));
+    const glm::dvec3 up = glm::cross(towardsSun, right);
+
+    std::vector<glm::dvec2> points;
+    points.reserve(8 * boxes.size());
+    double nearest = std::numeric_limits<double>::max(), farthest = std::numeric_limits<double>::lowest();
+    for (const Box& box : boxes) {
+        for (u32 k = 0; k < 8; ++k) {
+            const glm::dvec3 p((k & 1) ? box.hi.x : box.lo.x, (k & 2) ? box.hi.y : box.lo.y, (k & 4) ? box.hi.z : box.lo.z);
+            points.push_back({glm::dot(p, right), glm::dot(p, up)});
+            nearest = std::min(nearest, -glm::dot(p, towardsSun));
+            farthest = std::max(farthest, -glm::dot(p, towardsSun));
+        }
+    }
+    const Rectangle r = smallestRectangle(points);
+    const glm::dvec2 extent = glm::max(r.hi - r.lo, glm::dvec2(1e-3));
+
+    // Grow the texel until the picture fits the budget; each side is cut into equal views.
+    SunView view;
+    double texel = std::max(options.texel, std::sqrt(extent.x * extent.y / double(options.maxTexels)));
+    for (;; texel *= 1.02) {
+        const auto split = [&](double length, u32& cells, u32& size) {
+            const u64 texels = u64(std::ceil(length / texel)) + 2;
+            cells = u32((texels + options.maxViewSize - 1) / options.maxViewSize);
+            size = u32((texels + cells - 1) / cells);
+        };
+        split(extent.x, view.gridX, view.width);
+        split(extent.y, view.gridY, view.height);
+        if (u64(view.viewCount()) * view.width * view.height <= options.maxTexels && view.viewCount() <= options.maxViews) break;
+    }
+    const glm::dvec2 size(view.gridX * view.width, view.gridY * view.height);
+    view.texelX = extent.x / (size.x - 2.0);
+    view.texelY = extent.y / (size.y - 2.0);
+    const double margin = std::max({view.texelX, view.texelY, 1e-3 * (farthest - nearest), 1e-3});
+    view.depthRange = farthest - nearest + 2.0 * margin;
+
+    const glm::dvec2 axisY = turnLeft(r.axis);
+    const glm::dvec3 x = right * r.axis.x + up * r.axis.y;
+    const glm::dvec3 y = right * axisY.x + up * axisY.y;
+    const double scaleX = 1.0 / (view.texelX * view.width), scaleY = 1.0 / (view.texelY * view.height);
+    const double scaleZ = 1.0 / view.depthRange;
+    glm::dmat4 grid(1.0);
+    for (int k = 0; k < 3; ++k) {
+        grid[k][0] = x[k] * scaleX;
+        grid[k][1] = y[k] * scaleY;
+        grid[k][2] = -towardsSun[k] * scaleZ;
+    }
+    grid[3] = glm::dvec4((view.texelX - r.lo.x) * scaleX, (view.texelY - r.lo.y) * scaleY, (margin - nearest) * scaleZ, 1.0);
+    view.gridFromWorld = glm::mat4(grid);
+    return view;
+}
+
+} // namespace helio

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stream/tile_tables.h"
+
+#include <algorithm>
+
+#include "engine/gpu/transfer.h"
+
+namespace helio {
+
+namespace {
+
+bool isStatic(const gpu::DrawRecord& draw) { return draw.firstInstance == 0 && draw.instanceCount == 1; }
+
+/// Does the gather that reads texel buffers serve: the radiosity and the longest row in one view each, few pages?
+bool texelsServe(const Context& context, const TileView& tile)
+{
+    u64 pairCount = 0, longestRow = 0;
+    for (u32 i = 0; i < tile.nodes.size(); ++i) {
+        const u64 pairs = (u64(tile.linkRows[i + 1]) - tile.linkRows[i] + 1) / 2;
+        pairCount += pairs;
+        longestRow = std::max(longestRow, pairs);
+    }
+    return context.texelsFit(tile.nodes.size()) && context.texelsFit(longestRow) && context.texelsFit(pairCount / 64);
+}
+
+} // namespace
+
+std::vector<u32> staticTriangles(const TileView& tile)
+{
+    std::vector<u32> triangles;
+    for (const gpu::DrawRecord& draw : tile.draws)
+        if (isStatic(draw))
+            for (u32 k = 0; k < draw.indexCount; ++k)
+                triangles.push_back(tile.indices[draw.firstIndex + k] + draw.vertexOffset);
+    return triangles;
+}
+
+u32 countStaticVertices(const TileView& tile)
+{
+    u32 count = 0;
+    for (const gpu::DrawRecord& draw : tile.draws)
+        if (isStatic(draw))
+            for (u32 k = 0; k < draw.indexCount; ++k)
+                count = std::max(count, tile.indices[draw.firstIndex + k] + draw.vertexOffset + 1);
+    return count;
+}
+
+Result<TileTables> uploadTile(Context& context, const TileView& tile)
+{
+    if (tile.patches.empty()) return Error{"the pack has no patches: there is nothing to light"};
+    if (!tile.linkMoments.empty())
+        return Error{"the pack's links have moments (linear senders); this version reads constant senders only: bake it again"};
+    TileTables t;
+    t.patchCount = u32(tile.patches.size());
+    t.nodeCount = u32(tile.nodes.size());
+    for (const gpu::PatchRecord& patch : tile.patches) t.patchArea += double(patch.area);
+    auto tree = buildTreeLevels(tile.nodes, tile.children, t.patchCount);
+    if (!tree) return tree.error();
+    t.texelLinks = texelsServe(context, tile);
+    const u64 pairsPerPage = t.texelLinks ? context.facts().maxTexelBufferElements
+                                          : context.facts().maxStorageBufferBytes / sizeof(gpu::LinkPairRecord);
+    auto links = packLinks(tile.linkRows, tile.linkColumns, tile.linkFactors, pairsPerPage);
+    if (!links) return links.error();
+
+    t.patches = makeBuffer(context, "patches", tile.patches);
+    t.nodes = makeBuffer(context, "nodes", tile.nodes);
+    t.parents = makeBuffer(context, "parents", tree->parents);
+    t.childRows = makeBuffer(context, "child rows", tree->childRows);
+    t.children = makeBuffer(context, "children", tree->children);
+    t.levels = std::move(tree->levels);
+
+    t.linkRows = makeBuffer(context, "link rows", links->rows);
+    for (const LinkPage& page : links->pages)
+        t.links.push_back({page, makeBuffer(context, "links", std::span<const gpu::LinkPairRecord>(links->pairs)
+                                                                  .subspan(page.pairFirst, page.pairCount))});
+
+    t.skyPatches.assign(tile.skyPatches.begin(), tile.skyPatches.end());
+    t.skyRows = makeBuffer(context, "sky rows", tile.skyRows);
+    t.skyColumns = makeBuffer(context, "sky columns", tile.skyColumns);
+    t.skyFactors = makeBuffer(context, "sky factors", tile.skyFactors);
+
+    t.vertices = makeBuffer(context, "vertices", tile.vertices);
+    t.indices = makeBuffer(context, "indices", tile.indices);
+    t.instances = makeBuffer(context, "instances", tile.instances);
+    t.staticVertexCount = countStaticVertices(tile);
+    t.chunks = buildDrawChunks(tile);
+    return t;
+}
+
+} // namespace helio

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stream/tree_levels.h"
+
+#include <algorithm>
+
+namespace helio {
+
+Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::span<const u32> children,
+                                   u32 patchCount)
+{
+    HELIO_CHECK(patchCount <= nodes.size(), patchCount, " patches in ", nodes.size(), " nodes");
+    TreeLevels tree;
+    tree.parents.reserve(nodes.size());
+    for (const gpu::NodeRecord& node : nodes) tree.parents.push_back(node.parent);
+    tree.childRows.push_back(0);
+
+    std::vector<u32> height(nodes.size(), 0);
+    for (u32 i = patchCount; i < nodes.size(); ++i) {
+        const gpu::NodeRecord& node = nodes[i];
+        HELIO_CHECK(u64(node.childBegin) + node.childCount <= children.size(), "node ", i, " has children ",
+                    node.childBegin, "+", node.childCount, " of ", children.size());
+        for (u32 k = 0; k < node.childCount; ++k) {
+            const u32 child = children[node.childBegin + k];
+            if (child >= i) return Error{concat("node ", i, " has child ", child, ": children must come before parents")};
+            if (nodes[child].parent != i)
+                return Error{concat("node ", child, " is a child of node ", i, " but names ", nodes[child].parent,
+                                    " as its parent")};
+            height[i] = std::max(height[i], height[child] + 1);
+            tree.children.push_back({child, node.area > 0.0f ? float(double(nodes[child].area) / double(node.area)) : 0.0f});
+        }
+        tree.childRows.push_back(u32(tree.children.size()));
+        if (i > patchCount && height[i] < height[i - 1])
+            return Error{concat("node ", i, " of height ", height[i], " follows one of height ", height[i - 1],
+                                ": inner nodes must rise in height")};
+        if (i == patchCount || height[i] != height[i - 1]) tree.levels.push_back({i, 0});
+        ++tree.levels.back().count;
+    }
+    return tree;
+}
+
+} // namespace helio

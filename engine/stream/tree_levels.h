@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <vector>
+
+#include "city/base/result.h"
+#include "city/base/types.h"
+#include "shaders/shared/records.h"
+#include "shaders/shared/solve.h"
+
+namespace helio {
+
+/// Inner nodes first .. first + count - 1, none of which is an ancestor of another.
+struct TreeLevel
+{
+    u32 first = 0, count = 0;
+    bool operator==(const TreeLevel&) const = default;
+};
+
+/// The tree as push and pull read it.
+struct TreeLevels
+{
+    std::vector<TreeLevel> levels;          ///< upwards; level 0 is the parents of patches alone
+    std::vector<u32> parents;               ///< a node
+    std::vector<u32> childRows;             ///< inner nodes + 1 offsets into children
+    std::vector<gpu::ChildRecord> children; ///< in the pack's order
+};
+
+/// Orders the tree by height (leaf 0, else 1 + the highest child). The nodes must be patches first, then inner nodes by
+/// rising height; error: they are not, or a child's parent is not the node that lists it.
+Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::span<const u32> children,
+                                   u32 patchCount);
+
+} // namespace helio

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <optional>
+
+#include "engine/gpu/recorder.h"
+#include "engine/stages/draw_list.h"
+#include "engine/stages/sun_view.h"
+#include "engine/view/light_state.h"
+#include "engine/view/renderer.h"
+
+namespace helio {
+
+/// Stages 1 to 3 with the buffers that hold their results. Runs only what a change of the light asks for: the sun raster,
+/// the histogram and E_sun when the sun moved, E_sky when the sky changed, the sweeps when either did.
+class LightSolver
+{
+public:
+    LightSolver(Context& context, const TileTables& tile, const RendererOptions& options);
+
+    /// Blocks until the device is done.
+    const SolveReport& solve(const LightState& light);
+
+    RendererOptions& options() { return options_; }
+    const SunView& sunView() const { return sunView_; }
+    const Image& shadow() const { return *shadow_; }
+    const Buffer& counts() const { return counts_; }       ///< u32 a patch
+    const Buffer& sun() const { return sun_; }             ///< vec4 a patch
+    const Buffer& sky() const { return sky_; }             ///< vec4 a patch
+    const Buffer& indirect() const { return irradiance_; } ///< vec4 a node; E_indirect at the patches
+    const Buffer& radiosity() const { return radiosity_; } ///< vec4 a node
+
+private:
+    void solveSun(const LightState& light);
+    void solveSky(const LightState& light);
+    void sweep(const LightState& light, bool warm);
+    void fitImages();
+    void run(FrameGraph& graph);
+
+    Context& context_;
+    const TileTables& tile_;
+    RendererOptions options_;
+    Recorder recorder_;
+    std::optional<LightState> solved_;
+    SolveOptions solvedWith_;
+    SolveReport report_;
+
+    SunView sunView_;
+    std::optional<Image> ids_, shadow_;
+    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, partials_, residual_;
+    Buffer residualHost_, tallyHost_;
+};
+
+} // namespace helio

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/view/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "engine/gpu/transfer.h"
+#include "engine/graph/pass_context.h"
+#include "engine/stages/shade.h"
+#include "engine/stages/sun_raster.h"
+#include "engine/stream/corners.h"
+#include "engine/view/display.h"
+#include "engine/view/light_solver.h"
+
+namespace helio {
+
+namespace {
+
+/// Images of one picture size.
+struct FrameImages
+{
+    u32 width = 0, height = 0, samples = 0;
+    Image radiance, depth, display;
+};
+
+FrameImages makeFrameImages(Context& context, u32 width, u32 height, u32 samples)
+{
+    const VkImageUsageFlags readable = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    FrameImages f{width, height, samples, {}, {}, {}};
+    f.radiance = Image(context, {"radiance", width * samples, height * samples, kRadianceFormat, 1,
+                                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | readable});
+    f.depth = Image(context, {"depth", width * samples, height * samples, kDepthFormat, 1,
+                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
+    f.display = Image(context, {"display", width, height, kDisplayFormat, 1, VK_IMAGE_USAGE_STORAGE_BIT | readable});
+    return f;
+}
+
+std::vector<glm::vec4> averageSamples(const std::vector<glm::vec4>& texels, u32 width, u32 height, u32 samples)
+{
+    if (samples == 1) return texels;
+    std::vector<glm::vec4> pixels(size_t(width) * height, glm::vec4(0.0f));
+    const float share = 1.0f / float(samples * samples);
+    for (u32 y = 0; y < height * samples; ++y)
+        for (u32 x = 0; x < width * samples; ++x)
+            pixels[size_t(y / samples) * width + x / samples] += share * texels[size_t(y) * width * samples + x];
+    return pixels;
+}
+
+} // namespace
+
+struct Renderer::Impl
+{
+    Impl(Context& c, const TileView& t, TileTables tables, double north, const RendererOptions& options)
+        : context(c), view(t), northDeg(north), tile(std::move(tables)), solver(c, tile, options),
+          viewRecord(c, {"view", sizeof(gpu::ViewRecord), Memory::Upload}), recorder(c),
+          nothing(makeBuffer(c, "no corners", std::vector<glm::vec4>(2)))
+    {
+    }
+
+    /// The tables of interpolated light are made when a picture first asks for them.
+    void needCorners()
+    {
+        if (corners) return;
+        const std::vector<u32> triangles = staticTriangles(view);
+        const Corners c = buildCorners(view.vertices.first(tile.staticVertexCount), triangles);
+        corners.emplace();
+        corners->count = u32(c.rows.size() - 1);
+        corners->ofVertex = makeBuffer(context, "corner of vertex", c.ofVertex);
+        corners->rows = makeBuffer(context, "corner rows", c.rows);
+        corners->patches = makeBuffer(context, "corner patches", c.patches);
+        smooth = makeBuffer(context, "smooth light", std::vector<glm::vec4>(2 * size_t(std::max(corners->count, 1u))));
+    }
+
+    void needImages(u32 width, u32 height, u32 samples)
+    {
+        if (images.width != width || images.height != height || images.samples != samples) {
+            images = {};
+            images = makeFrameImages(context, width, height, samples);
+        }
+    }
+
+    Context& context;
+    std::optional<Pack> pack; // keeps the mapped tile alive
+    TileView view;
+    double northDeg;
+    TileTables tile;
+    LightSolver solver;
+    LightState light;
+    Buffer viewRecord;
+    Recorder recorder;
+    Buffer nothing;
+    std::optional<CornerTables> corners;
+    Buffer smooth;
+    FrameImages images;
+    DrawList drawn;
+};
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::~Renderer() { impl_->context.waitIdle(); }
+
+Result<std::unique_ptr<Renderer>> Renderer::create(Context& context, const TileView& tile, double northDeg,
+                                                   const RendererOptions& options)
+{
+    auto tables = uploadTile(context, tile);
+    if (!tables) return tables.error();
+    auto impl = std::make_unique<Impl>(context, tile, std::move(*tables), northDeg, options);
+    std::unique_ptr<Renderer> renderer(new Renderer(std::move(impl)));
+    renderer->setSun(180.0, 45.0, 800.0);
+    return renderer;
+}
+
+Result<std::unique_ptr<Renderer>> Renderer::create(Context& context, const Pack& pack, const RendererOptions& options)
+{
+    auto renderer = create(context, pack.tile(), pack.index().northDeg, options);
+    if (renderer) (*renderer)->impl_->pack = pack;
+    return renderer;
+}
+
+void Renderer::setSun(double azimuthDeg, double elevationDeg, double dni)
+{
+    HELIO_CHECK(std::isfinite(azimuthDeg) && std::isfinite(elevationDeg) && std::isfinite(dni) && dni >= 0.0, "azimuth ",
+                azimuthDeg, ", elevation ", elevationDeg, ", DNI ", dni);
+    impl_->light.towardsSun = sunDirection(azimuthDeg, elevationDeg, impl_->northDeg);
+    impl_->light.dni = dni;
+}
+
+void Renderer::setSky(double dhi)
+{
+    HELIO_CHECK(std::isfinite(dhi) && dhi >= 0.0, "DHI ", dhi);
+    impl_->light.dhi = dhi;
+}
+
+void Renderer::setEmission(bool on) { impl_->light.emission = on; }
+SolveOptions& Renderer::solveOptions() { return impl_->solver.options().solve; }
+const LightState& Renderer::light() const { return impl_->light; }
+const SolveReport& Renderer::solve() { return impl_->solver.solve(impl_->light); }
+
+LightTables Renderer::readTables()
+{
+    const u64 bytes = u64(impl_->tile.patchCount) * sizeof(glm::vec4);
+    const auto read = [&](const Buffer& from) { return asItems<glm::vec4>(download(impl_->context, from, 0, bytes)); };
+    const LightSolver& s = impl_->solver;
+    return {read(s.sun()), read(s.sky()), read(s.indirect()), read(s.radiosity())};
+}
+
+std::vector<u32> Renderer::readCounts() { return downloadItems<u32>(impl_->context, impl_->solver.counts()); }
+
+Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width, u32 height, const ViewOptions& options)
+{
+    Impl& r = *impl_;
+    HELIO_CHECK(width > 0 && height > 0 && options.samples >= 1 && options.samples <= 4, width, " x ", height, ", ",
+                options.samples, " samples");
+    const SolveReport& report = r.solver.solve(r.light);
+    const bool exact = options.mode == gpu::kModeId || options.mode == gpu::kModeDepth;
+    const u32 samples = exact ? 1 : options.samples;
+    const bool smooth = options.mode == gpu::kModeFinal && options.smoothLight && r.tile.staticVertexCount > 0;
+    if (smooth) r.needCorners();
+    r.needImages(width, height, samples);
+
+    gpu::ViewRecord record = viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display);
+    record.mode = options.mode;
+    record.smoothLight = smooth ? 1u : 0u;
+    record.patchCount = r.tile.patchCount;
+    record.staticVertexCount = r.tile.staticVertexCount;
+    std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
+    r.viewRecord.flush();
+    r.drawn = DrawList(r.context, visibleDraws(r.tile.chunks, record.clipFromWorld));
+
+    ShadeInputs in;
+    in.view = graph.import(r.viewRecord);
+    in.shadow = graph.import(r.solver.shadow());
+    in.sun = graph.import(r.solver.sun());
+    in.sky = graph.import(r.solver.sky());
+    in.indirect = graph.import(r.solver.indirect());
+    in.radiosity = graph.import(r.solver.radiosity());
+    in.cornerOfVertex = graph.import(smooth ? r.corners->ofVertex : r.nothing);
+    in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth)) : graph.import(r.nothing);
+    in.mode = options.mode;
+    const ShadeTargets targets =
+        addForward(graph, r.tile, r.drawn, in, {graph.import(r.images.radiance), graph.import(r.images.depth)});
+
+    gpu::ToneParams tone{};
+    tone.width = width;
+    tone.height = height;
+    tone.samples = samples;
+    tone.mode = options.mode;
+    tone.exposure = float(autoExposure(report.meanRadiosity, r.light) * std::exp2(options.exposureStops));
+    tone.scale = float(falseColourScale(options.mode, report.meanRadiosity, r.light));
+    return addTone(graph, targets.radiance, graph.import(r.images.display), tone);
+}
+
+const Image& Renderer::displayImage() const { return impl_->images.display; }
+
+Picture Renderer::render(const Camera& camera, u32 width, u32 height, const ViewOptions& options)
+{
+    Impl& r = *impl_;
+    FrameGraph graph("frame");
+    (void)addFrame(graph, camera, width, height, options);
+    const Status compiled = graph.compile(r.context);
+    HELIO_CHECK(compiled.ok(), compiled.ok() ? "" : compiled.error().message, "\n", graph.dump());
+    r.recorder.begin();
+    graph.execute(r.recorder, true);
+    r.recorder.submitAndWait();
+
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
+    picture.passes = r.recorder.times();
+    picture.display = downloadTexels<u8>(r.context, r.images.display);
+    picture.values = averageSamples(downloadTexels<glm::vec4>(r.context, r.images.radiance), width, height, r.images.samples);
+    return picture;
+}
+
+} // namespace helio

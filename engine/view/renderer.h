@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <glm/vec4.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "city/base/result.h"
+#include "city/format/pack.h"
+#include "engine/gpu/context.h"
+#include "engine/gpu/recorder.h"
+#include "engine/graph/frame_graph.h"
+#include "engine/stages/sun_view.h"
+#include "engine/view/camera.h"
+#include "engine/view/light_state.h"
+#include "shaders/shared/view.h"
+
+namespace helio {
+
+/// How far the sweeps go.
+struct SolveOptions
+{
+    double residual = 1e-3; ///< stop when the relative, area-weighted residual is at most this
+    u32 maxSweeps = 100;    ///< stop after this many in any case, >= 1
+    u32 exactSweeps = 0;    ///< > 0: exactly this many, whatever the residual
+    bool warmStart = false; ///< start from the last solution: fewer sweeps, but bits that depend on what came before
+    bool operator==(const SolveOptions&) const = default;
+};
+
+struct RendererOptions
+{
+    SunViewOptions sun;
+    SolveOptions solve;
+    bool plainHistogram = false; ///< the twin without subgroup aggregation
+};
+
+struct SolveReport
+{
+    bool cached = false;      ///< nothing changed: the last solution stands, the figures are its own
+    u32 sweeps = 0;
+    double residual = 0.0;    ///< of the radiosity that the last sweep started from; the result's own is smaller
+    glm::dvec4 meanRadiosity{0.0}; ///< W/m2, area-weighted mean of B over all patches
+    u32 litPatches = 0;       ///< patches that face the sun
+    u32 flaggedPatches = 0;   ///< of them, lit by an ancestor's ratio: too few texels, or grazing
+    u32 excessPatches = 0;    ///< of them, more texels than their area explains; clamped
+    double sunTexelX = 0.0, sunTexelY = 0.0; ///< m
+    u32 sunViews = 0, sunWidth = 0, sunHeight = 0;
+    std::vector<PassTime> stages; ///< milliseconds on the device: sun raster, histogram, sun energy, sky, gather
+};
+
+/// What a picture shows besides the city.
+struct ViewOptions
+{
+    u32 mode = gpu::kModeFinal;  ///< gpu::kMode...
+    u32 samples = 1;             ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
+    bool smoothLight = true;     ///< final: interpolate E_sky and E_indirect over coplanar patches (display only)
+    bool display = true;         ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
+    double exposureStops = 0.0;  ///< added to the automatic exposure
+};
+
+/// A picture on the host, rows from the top.
+struct Picture
+{
+    u32 width = 0, height = 0;
+    std::vector<u8> display;         ///< RGBA, sRGB
+    std::vector<glm::vec4> values;   ///< linear, mean of the samples: see addForward for the unit of each mode
+    std::vector<PassTime> passes;
+};
+
+/// Light of every patch, W/m2: linear r, g, b, broadband solar.
+struct LightTables
+{
+    std::vector<glm::vec4> sun, sky, indirect, radiosity;
+};
+
+/// A city on a device: solves its light and draws it. One thread at a time. The context must outlive it.
+class Renderer
+{
+public:
+    /// Uploads the pack's tile. Errors: see uploadTile.
+    static Result<std::unique_ptr<Renderer>> create(Context& context, const Pack& pack, const RendererOptions& options = {});
+    /// The same for a tile in memory, which must outlive the renderer. northDeg: see PackIndex.
+    static Result<std::unique_ptr<Renderer>> create(Context& context, const TileView& tile, double northDeg,
+                                                    const RendererOptions& options = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Azimuth clockwise from true north, elevation above the horizon, degrees; dni W/m2.
+    void setSun(double azimuthDeg, double elevationDeg, double dni);
+    void setSky(double dhi);
+    void setEmission(bool on);
+    SolveOptions& solveOptions();
+    const LightState& light() const;
+
+    /// Stages 1 to 3, if the light changed since the last call. Blocks until the device is done.
+    const SolveReport& solve();
+    /// E_sun, E_sky, E_indirect and B of every patch, after solve.
+    LightTables readTables();
+    /// Texels of each patch in the sun raster, after solve with the sun up.
+    std::vector<u32> readCounts();
+
+    /// Solves if needed, draws, waits, reads back.
+    Picture render(const Camera& camera, u32 width, u32 height, const ViewOptions& view = {});
+    /// For windows: solves if needed and adds stage 4 to a graph. Returns the display image (RGBA8, sRGB bytes; owned by the
+    /// renderer, import it by displayImage()). One frame in flight: the previous one must be complete.
+    Ref<Image> addFrame(FrameGraph& graph, const Camera& camera, u32 width, u32 height, const ViewOptions& view = {});
+    /// The image behind addFrame's result.
+    const Image& displayImage() const;
+
+private:
+    struct Impl;
+    explicit Renderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace helio

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gather through storage buffers: for devices whose texel buffers are too small.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/shared/solve.h"
+#include "shaders/lib/dispatch.glsl"
+
+layout(set = 0, binding = kGatherLinks, scalar) readonly buffer Links { uvec4 links[]; };
+layout(set = 0, binding = kGatherRadiosity, scalar) readonly buffer Radiosity { vec4 radiosity[]; };
+uvec4 fetchLinks(uint pair) { return links[pair]; }
+vec4 fetchRadiosity(uint node) { return radiosity[node]; }
+#include "shaders/lib/gather.glsl"

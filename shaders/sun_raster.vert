@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stage 1: every surface as the sun sees it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/shared/sun.h"
+#include "shaders/lib/mesh.glsl"
+
+layout(push_constant, scalar) uniform Params { SunRasterParams params; };
+layout(location = 0) flat out uint vPatch;
+invariant gl_Position;
+
+void main()
+{
+    vPatch = patchOfVertex();
+    gl_Position = params.clipFromWorld * vec4(worldPosition(), 1.0);
+}

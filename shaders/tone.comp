@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stage 4: radiance to display. Each sample is tone mapped by itself, then averaged, so that edges against bright light stay
+// smooth. The curve is Hable's filmic one (Uncharted 2, GDC 2010) with its published constants, white at 8.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shaders/shared/view.h"
+
+layout(local_size_x = kToneGroup, local_size_y = kToneGroup) in;
+layout(set = 0, binding = kToneInput) uniform sampler2D radiance;
+layout(set = 0, binding = kToneOutput, rgba8) uniform writeonly image2D display;
+layout(push_constant, scalar) uniform Params { ToneParams params; };
+
+vec3 filmic(vec3 x) { return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.02 / 0.3; }
+
+vec3 displayOf(vec4 value)
+{
+    if (params.mode == kModeFinal) return filmic(2.0 * params.exposure * value.rgb) / filmic(vec3(8.0));
+    if (params.mode == kModeId) return value.rgb;
+    if (params.mode == kModeDepth) return value.a < 0.0 ? vec3(0.0) : vec3(params.scale / (params.scale + value.r));
+    return value.rgb / params.scale;
+}
+
+vec3 srgb(vec3 linear)
+{
+    const vec3 x = clamp(linear, 0.0, 1.0);
+    return mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x, lessThanEqual(x, vec3(0.0031308)));
+}
+
+void main()
+{
+    const uvec2 at = gl_GlobalInvocationID.xy;
+    if (at.x >= params.width || at.y >= params.height) return;
+    vec3 sum = vec3(0.0);
+    for (uint y = 0u; y < params.samples; ++y)
+        for (uint x = 0u; x < params.samples; ++x)
+            sum += clamp(displayOf(texelFetch(radiance, ivec2(at * params.samples + uvec2(x, y)), 0)), 0.0, 1.0);
+    imageStore(display, ivec2(at), vec4(srgb(sum / float(params.samples * params.samples)), 1.0));
+}

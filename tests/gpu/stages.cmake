@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
+add_library(stage_test_support STATIC support/stage_twins.cpp support/tile_builder.cpp)
+target_link_libraries(stage_test_support PUBLIC city_format)
+
+add_executable(gpu_stages_test
+    gpu/gather_test.cpp
+    gpu/histogram_test.cpp
+    gpu/sun_energy_test.cpp)
+target_link_libraries(gpu_stages_test PRIVATE helio_gpu_fixture stage_test_support engine_view GTest::gtest_main)
+gtest_discover_tests(gpu_stages_test PROPERTIES LABELS gpu)

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/light/paper_links.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/numeric/fixtures.h"
+
+using namespace helio;
+using namespace helio::test;
+
+namespace {
+
+/// A floor of n x n and, `gap` above it, a ceiling of m x m, both 10 x 10 m.
+NodeTree floorAndCeiling(u32 n, u32 m, double gap)
+{
+    std::vector<Face> faces = grid({0, 0, 0}, {10, 0, 0}, {0, 10, 0}, n, n, {{}, 0});
+    append(faces, grid({0, 0, gap}, {0, 10, 0}, {10, 0, 0}, m, m, {{}, 1}));
+    return makeTree(faces);
+}
+
+double totalExchange(const std::vector<NodePair>& pairs)
+{
+    double sum = 0.0;
+    for (const NodePair& pair : pairs) sum += double(pair.exchange);
+    return sum;
+}
+
+} // namespace
+
+TEST(PaperLinks, DiscFactorByHand)
+{
+    // 1 m2 facing 4 m2 at 10 m: 4 / (100 pi + 4).
+    std::vector<Face> faces = grid({-.5, -.5, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, {{}, 0});
+    append(faces, grid({-1, -1, 10}, {0, 2, 0}, {2, 0, 0}, 1, 1, {{}, 1}));
+    const NodeTree tree = makeTree(faces);
+    EXPECT_NEAR(discFactor(tree.nodes[0], tree.nodes[1]), 4.0 / (100.0 * std::numbers::pi + 4.0), 1e-15);
+    EXPECT_NEAR(discFactor(tree.nodes[1], tree.nodes[0]), 1.0 / (100.0 * std::numbers::pi + 1.0), 1e-15);
+}
+
+TEST(PaperLinks, LeafRuleKeepsTheLightThatThePrintedAlgorithmLoses)
+{
+    // Two leaves nearer than the threshold allows: the printed recursion has no children to go to and makes no link.
+    const NodeTree leaves = floorAndCeiling(1, 1, 5.0);
+    ASSERT_GT(discFactor(leaves.nodes[0], leaves.nodes[1]), 0.1);
+    EXPECT_TRUE(paperLinks(leaves, {.epsilon = 0.1, .literal = true}).empty());
+    const std::vector<NodePair> repaired = paperLinks(leaves, {.epsilon = 0.1});
+    ASSERT_EQ(repaired.size(), 1u);
+    EXPECT_NEAR(double(repaired[0].exchange), 100.0 * discFactor(leaves.nodes[0], leaves.nodes[1]), 1e-4);
+
+    // One leaf, the other with children: the leaf hands the refinement over.
+    const NodeTree uneven = floorAndCeiling(1, 2, 5.0);
+    EXPECT_TRUE(paperLinks(uneven, {.epsilon = 0.1, .literal = true}).empty());
+    EXPECT_EQ(paperLinks(uneven, {.epsilon = 0.1}).size(), 4u);
+    // With a threshold above every factor both agree.
+    EXPECT_EQ(paperLinks(uneven, {.epsilon = 1.0, .literal = true}).size(), 1u);
+}
+
+TEST(PaperLinks, RefinesTheNodeThatLooksLarge)
+{
+    // A small patch before a large one: F small -> large is large, so the large one is to be opened. The printed rule opens the
+    // small one, which is a leaf here, and the light is gone.
+    std::vector<Face> faces = grid({4.5, 4.5, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, {{}, 0});
+    append(faces, grid({0, 0, 4}, {0, 10, 0}, {10, 0, 0}, 4, 4, {{}, 1}));
+    const NodeTree tree = makeTree(faces);
+    const std::vector<NodePair> repaired = paperLinks(tree, {.epsilon = 0.3});
+    EXPECT_GT(repaired.size(), 1u);
+    for (const NodePair& pair : repaired) EXPECT_LE(discFactor(tree.nodes[pair.a], tree.nodes[pair.b]), 0.3);
+    EXPECT_TRUE(paperLinks(tree, {.epsilon = 0.3, .literal = true}).empty());
+}
+
+TEST(PaperLinks, CutOffByBoxesIsMonotoneUnderRefinement)
+{
+    // Two long walls that meet at a corner: the centres are 28 m apart, the nearest patches touch.
+    std::vector<Face> faces = grid({0, 0, 0}, {0, 40, 0}, {0, 0, 4}, 8, 1, {{}, 0});       // faces +x
+    append(faces, grid({0, 0, 0}, {0, 0, 4}, {40, 0, 0}, 1, 8, {{}, 1}));                  // faces +y
+    const NodeTree tree = makeTree(faces);
+    EXPECT_TRUE(paperLinks(tree, {.epsilon = 0.01, .cutoff = 22.5, .literal = true}).empty());
+    const std::vector<NodePair> near = paperLinks(tree, {.epsilon = 0.01, .cutoff = 22.5});
+    const std::vector<NodePair> all = paperLinks(tree, {.epsilon = 0.01, .cutoff = 0.0});
+    EXPECT_GT(near.size(), 10u);
+    EXPECT_LE(totalExchange(near), totalExchange(all));
+    EXPECT_GT(totalExchange(near), 0.5 * totalExchange(all));
+}

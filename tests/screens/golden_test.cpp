@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of every stage's output and final pictures against goldens of the software driver.
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "tests/screens/golden_check.h"
+#include "tests/screens/test_packs.h"
+
+namespace helio {
+namespace {
+
+constexpr u32 kWidth = 320, kHeight = 180;
+
+// Tolerances, each with its reason. The driver, its version and its compiler are pinned by the folder of the goldens;
+// what is left to differ is the machine's vector width and fused multiply-adds.
+//
+// Ids are integers behind a fixed-point rasteriser: no pixel may differ.
+// Display pictures: 5 steps of 255 on one pixel in a thousand. A pixel centre that falls on an edge may change sides
+// when a vertex moves by one rounding (the share), everything else is smooth arithmetic, rounded once (below one step
+// in the mean).
+constexpr Tolerance kDisplayTolerance{5, 0.001, 0.2};
+// Visibility: the same, but a shadow edge moves with the sun raster's own roundings, so pixels are judged by half a
+// step of its four-texel filter (32 of 255) and not by a twentieth of it.
+constexpr Tolerance kVisibilityTolerance{32, 0.001, 0.2};
+// Radiosity, W/m2: values reach about 300, half floats there are 0.25 apart; two of those steps.
+constexpr Tolerance kRadiosityTolerance{0.5, 0.001, 0.05};
+
+struct Screen
+{
+    const char* file; ///< of the golden
+    TestPack pack;
+    const char* camera;
+    double sunAzimuth, sunElevation;
+    ViewOptions view;
+    Tolerance tolerance;
+};
+
+void PrintTo(const Screen& screen, std::ostream* out) { *out << screen.file; }
+
+constexpr const char* kCityCamera = "-30,-48,30,0,-2,4,45";
+constexpr const char* kStreetCamera = "-5,-34,1.7,-5,20,6,60";
+constexpr const char* kSceneCamera = "-28,-30,24,9,9,3,45";
+
+const Screen kScreens[] = {
+    {"city_ids.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeId}, kIdentical},
+    {"city_depth.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeDepth}, kDisplayTolerance},
+    {"city_sun_visibility.png",
+     TestPack::City,
+     kCityCamera,
+     215,
+     35,
+     {.mode = gpu::kModeSunVisibility},
+     kVisibilityTolerance},
+    {"city_sun.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeSun}, kDisplayTolerance},
+    {"city_sky.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeSky}, kDisplayTolerance},
+    {"city_indirect.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeIndirect}, kDisplayTolerance},
+    {"city_radiosity.exr", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeRadiosity}, kRadiosityTolerance},
+    {"city_final.png", TestPack::City, kCityCamera, 215, 35, {.samples = 2}, kDisplayTolerance},
+    {"city_final_plain.png",
+     TestPack::City,
+     kCityCamera,
+     215,
+     35,
+     {.smoothLight = false, .display = false},
+     kDisplayTolerance},
+    {"city_final_low_sun.png", TestPack::City, kCityCamera, 265, 9, {.samples = 2}, kDisplayTolerance},
+    {"city_final_street.png", TestPack::City, kStreetCamera, 150, 55, {.samples = 2}, kDisplayTolerance},
+    {"scene_s_final.png", TestPack::SceneS, kSceneCamera, 200, 40, {.samples = 2}, kDisplayTolerance},
+    {"scene_s_ids.png", TestPack::SceneS, kSceneCamera, 200, 40, {.mode = gpu::kModeId}, kIdentical},
+};
+
+GoldenFolders goldenFolders()
+{
+    const std::string driver = driverFolder(testContext().facts().driver);
+    return {std::filesystem::path(HELIO_SOURCE_FOLDER) / "tests/screens/goldens" / driver,
+            std::filesystem::path(HELIO_SCREENS_OUT) / driver};
+}
+
+TestImage renderScreen(const Screen& screen)
+{
+    Renderer& renderer = testRenderer(screen.pack);
+    renderer.setSun(screen.sunAzimuth, screen.sunElevation, 800.0);
+    const Camera camera = parseCamera(screen.camera, testPack(screen.pack)).value();
+    const Picture picture = renderer.render(camera, kWidth, kHeight, screen.view);
+    TestImage image = makeTestImage(kWidth, kHeight, 0);
+    const bool linear = std::filesystem::path(screen.file).extension() == ".exr";
+    for (size_t pixel = 0; pixel < picture.values.size(); ++pixel)
+        for (int channel = 0; channel < 3; ++channel)
+            image.rgb[3 * pixel + size_t(channel)] =
+                linear ? picture.values[pixel][channel] : float(picture.display[4 * pixel + size_t(channel)]);
+    return image;
+}
+
+std::string testName(const testing::TestParamInfo<Screen>& info)
+{
+    return std::filesystem::path(info.param.file).stem().string();
+}
+
+class Golden : public testing::TestWithParam<Screen>
+{
+};
+
+TEST_P(Golden, Matches)
+{
+    const Screen& screen = GetParam();
+    EXPECT_TRUE(matchesGolden(goldenFolders(), screen.file, renderScreen(screen), screen.tolerance));
+}
+INSTANTIATE_TEST_SUITE_P(Screens, Golden, testing::ValuesIn(kScreens), testName);
+
+TEST(Goldens, EveryGoldenHasAScreen)
+{
+    std::set<std::string> rendered, stored;
+    for (const Screen& screen : kScreens) EXPECT_TRUE(rendered.insert(screen.file).second) << screen.file << " twice";
+    for (const auto& entry : std::filesystem::directory_iterator(goldenFolders().goldens))
+        stored.insert(entry.path().filename().string());
+    EXPECT_EQ(stored, rendered) << "a golden without a screen is deleted, a screen without a golden gets one";
+}
+
+/// What a test would do that renders `image` for the golden of city_final.png; its outputs go to a folder of their own.
+void checkAgainstFinal(const TestImage& image)
+{
+    GoldenFolders folders = goldenFolders();
+    folders.out = std::filesystem::path(testing::TempDir()) / "expect_fail";
+    EXPECT_TRUE(matchesGolden(folders, "city_final.png", image, kDisplayTolerance));
+}
+
+TEST(Goldens, CheckerFailsOnAWrongPicture)
+{
+    const TestImage golden = readTestImage(goldenFolders().goldens / "city_final.png").value();
+    checkAgainstFinal(golden); // itself it accepts
+
+    // One pixel in a thousand of 57 600 is 57: a patch of 58 pixels that are 6 steps off is one too many.
+    static TestImage wrong;
+    wrong = golden;
+    for (u32 pixel = 0; pixel < 58; ++pixel) {
+        float* rgb = wrong.at(pixel + 100, 90);
+        rgb[1] += rgb[1] > 128 ? -6.0f : 6.0f;
+    }
+    EXPECT_NONFATAL_FAILURE(checkAgainstFinal(wrong), "city_final.png differs from its golden");
+
+    // Everything one step brighter: no pixel is over the limit, but the mean is.
+    for (float& value : wrong.rgb) value = value < 255 ? value + 1 : value;
+    EXPECT_NONFATAL_FAILURE(checkAgainstFinal(wrong), "mean difference");
+}
+
+TEST(Goldens, CheckerFailsOnTheShadowsOfAnotherSun)
+{
+    Screen screen = kScreens[7];
+    ASSERT_STREQ(screen.file, "city_final.png");
+    screen.sunAzimuth += 2; // the shadows move by some decimetres
+    static TestImage wrong;
+    wrong = renderScreen(screen);
+    EXPECT_NONFATAL_FAILURE(checkAgainstFinal(wrong), "city_final.png differs from its golden");
+}
+
+TEST(Goldens, CheckerFailsWithoutAGolden)
+{
+    const auto check = [] {
+        GoldenFolders folders{"no such folder", std::filesystem::path(testing::TempDir()) / "expect_fail"};
+        EXPECT_TRUE(matchesGolden(folders, "nothing.png", makeTestImage(4, 4, 0), kDisplayTolerance));
+    };
+    EXPECT_NONFATAL_FAILURE(check(), "there is no golden for this picture");
+}
+
+} // namespace
+} // namespace helio

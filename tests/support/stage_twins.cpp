@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/stage_twins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace helio::twin {
+
+std::vector<u32> countIds(std::span<const u32> ids, u32 patchCount)
+{
+    std::vector<u32> counts(patchCount, 0);
+    for (const u32 id : ids)
+        if (id < patchCount) ++counts[id];
+    return counts;
+}
+
+std::vector<RowSum> gather(const TileView& tile, std::span<const glm::vec4> radiosity)
+{
+    std::vector<RowSum> rows(tile.nodes.size());
+    for (size_t i = 0; i < rows.size(); ++i) {
+        for (u32 k = tile.linkRows[i]; k < tile.linkRows[i + 1]; ++k) {
+            const glm::dvec4 part = double(tile.linkFactors[k]) * glm::dvec4(radiosity[tile.linkColumns[k]]);
+            rows[i].sum += part;
+            rows[i].absolute += glm::abs(part);
+        }
+    }
+    return rows;
+}
+
+std::vector<glm::dvec4> pullUp(const TileView& tile, std::span<const glm::dvec4> values)
+{
+    std::vector<glm::dvec4> out(values.begin(), values.end());
+    for (size_t i = values.size(); i < tile.nodes.size(); ++i) {
+        glm::dvec4 sum(0.0);
+        for (u32 k = 0; k < tile.nodes[i].childCount; ++k) {
+            const u32 child = tile.children[tile.nodes[i].childBegin + k];
+            sum += double(tile.nodes[child].area) * out[child];
+        }
+        out.push_back(sum / double(tile.nodes[i].area));
+    }
+    return out;
+}
+
+std::vector<glm::dvec4> pushDown(const TileView& tile, std::span<const glm::dvec4> values)
+{
+    std::vector<glm::dvec4> out;
+    for (u32 i = 0; i < values.size(); ++i) {
+        glm::dvec4 sum = values[i];
+        for (u32 up = tile.nodes[i].parent; up != kNoIndex; up = tile.nodes[up].parent) sum += values[up];
+        out.push_back(sum);
+    }
+    return out;
+}
+
+SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec3 towardsSun, double dni, double texelArea,
+                    double minSamples, double minCosine)
+{
+    // Areas perpendicular to the sun, seen and unoccluded, summed over the patches below each node.
+    struct Areas
+    {
+        double seen = 0.0, alone = 0.0;
+    };
+    std::vector<Areas> areas(tile.nodes.size());
+    for (u32 i = 0; i < tile.patches.size(); ++i) {
+        const double cosine = glm::dot(glm::dvec3(tile.patches[i].normal), towardsSun);
+        if (cosine <= 0.0) continue;
+        for (u32 node = i; node != kNoIndex; node = tile.nodes[node].parent) {
+            areas[node].seen += counts[i] * texelArea;
+            areas[node].alone += tile.patches[i].area * cosine;
+        }
+    }
+    SunEnergy out;
+    for (u32 i = 0; i < tile.patches.size(); ++i) {
+        const double cosine = glm::dot(glm::dvec3(tile.patches[i].normal), towardsSun);
+        if (cosine <= 0.0) {
+            out.irradiance.emplace_back(0.0);
+            continue;
+        }
+        const bool judged = cosine >= minCosine && areas[i].alone >= minSamples * texelArea;
+        u32 node = i;
+        if (!judged)
+            while (tile.nodes[node].parent != kNoIndex) {
+                node = tile.nodes[node].parent;
+                if (areas[node].alone >= minSamples * texelArea) break;
+            }
+        const double ratio = areas[node].seen / areas[node].alone;
+        out.irradiance.emplace_back(dni * cosine * std::min(1.0, ratio));
+        ++out.lit;
+        out.flagged += !judged;
+        out.excess += judged && ratio > 1.0;
+    }
+    return out;
+}
+
+Solution solve(const TileView& tile, std::span<const glm::dvec4> b0, u32 sweeps)
+{
+    Solution s;
+    s.radiosity.assign(b0.begin(), b0.end());
+    for (u32 sweep = 0; sweep < sweeps; ++sweep) {
+        const std::vector<glm::dvec4> nodes = pullUp(tile, s.radiosity);
+        std::vector<glm::dvec4> own(tile.nodes.size(), glm::dvec4(0.0));
+        for (size_t i = 0; i < own.size(); ++i)
+            for (u32 k = tile.linkRows[i]; k < tile.linkRows[i + 1]; ++k)
+                own[i] += double(tile.linkFactors[k]) * nodes[tile.linkColumns[k]];
+        s.indirect = pushDown(tile, own);
+        s.indirect.resize(b0.size());
+        glm::dvec4 change(0.0), scale(0.0);
+        for (size_t i = 0; i < b0.size(); ++i) {
+            const glm::dvec4 added = glm::dvec4(tile.patches[i].rho) * s.indirect[i];
+            const glm::dvec4 step = b0[i] + added - s.radiosity[i];
+            change += double(tile.patches[i].area) * step * step;
+            scale += double(tile.patches[i].area) * added * added;
+            s.radiosity[i] = b0[i] + added;
+        }
+        s.residual = 0.0;
+        for (int c = 0; c < 4; ++c)
+            if (scale[c] > 0.0) s.residual = std::max(s.residual, std::sqrt(change[c] / scale[c]));
+    }
+    return s;
+}
+
+} // namespace helio::twin

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+#include <vector>
+
+#include "city/format/pack.h"
+
+namespace helio {
+
+/// Makes a tile by hand: quads first, then groups from the leaves up, links and sky in any order, then view().
+class TileBuilder
+{
+public:
+    /// A planar quad, corners counter-clockwise from its lit side; one patch. Returns its id.
+    u32 quad(std::array<glm::vec3, 4> corners, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f));
+    /// A patch that is not drawn.
+    u32 patch(glm::vec3 normal, float area, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f));
+    /// The six outer sides of a box (or, inwards, the six inner ones); returns the first of six ids: -x, +x, -y, +y, -z, +z.
+    u32 box(glm::vec3 lo, glm::vec3 hi, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f), bool inwards = false);
+    /// Draws one more quad of local corners with an instance's transform, as an asset of a patch.
+    void asset(u32 patchId, std::array<glm::vec3, 4> corners, std::array<glm::vec4, 3> worldFromLocal);
+    /// An inner node; all patches must exist. Children are ids of patches and earlier groups.
+    u32 group(const std::vector<u32>& children);
+    void link(u32 receiver, u32 sender, float factor);
+    void sky(u32 patchId, float factor);
+
+    /// The tile; stays valid until the builder changes or dies.
+    TileView view();
+
+    std::vector<gpu::PatchRecord> patches;
+    std::vector<gpu::NodeRecord> groups;
+
+private:
+    void triangles(const std::array<glm::vec3, 4>& corners, glm::vec3 normal, glm::vec4 rho, u32 patchId);
+
+    std::vector<u32> children_;
+    std::vector<gpu::VertexRecord> vertices_, assetVertices_;
+    std::vector<u32> indices_, assetIndices_;
+    std::vector<gpu::InstanceRecord> instances_, allInstances_;
+    std::map<u32, std::vector<std::pair<u32, float>>> links_;
+    std::map<u32, float> sky_;
+
+    std::vector<gpu::NodeRecord> nodes_;
+    std::vector<u32> linkRows_, linkColumns_, skyRows_, skyColumns_, allIndices_;
+    std::vector<float> linkFactors_, skyFactors_;
+    std::vector<gpu::SkyPatchRecord> skyPatches_;
+    std::vector<gpu::VertexRecord> allVertices_;
+    std::vector<gpu::DrawRecord> draws_;
+};
+
+} // namespace helio

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built heliopolis-bake, run as a user runs it: bad input gets one line and exit code 1 and leaves nothing behind;
+// good input gives the same bytes for any number of threads.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "city/base/file.h"
+#include "city/format/pack.h"
+#include "city/pack/writer.h"
+#include "tests/unit/cli_runner.h"
+#include "tests/unit/pack_sample.h"
+
+namespace helio {
+namespace {
+
+using test::RunResult;
+using test::TempFolder;
+
+/// Two houses of different height on either side of a lane, one with a court, in metres.
+constexpr const char* kTown = R"({"type":"FeatureCollection","features":[
+{"type":"Feature","id":"east","properties":{"height":14},"geometry":{"type":"Polygon","coordinates":
+  [[[0,0],[16,0],[16,20],[0,20],[0,0]],[[5,6],[5,14],[11,14],[11,6],[5,6]]]}},
+{"type":"Feature","id":"west","properties":{"levels":3},"geometry":{"type":"Polygon","coordinates":
+  [[[-20,0],[-8,0],[-8,12],[-20,13],[-20,0]]]}}]})";
+
+const std::string kScene = HELIO_SCENES "/twobox";
+
+class BakeCli : public testing::Test
+{
+protected:
+    RunResult bake(const std::string& arguments) const { return test::runProgram(HELIO_BAKE, arguments, temp_.path()); }
+
+    void put(const std::string& name, const std::string& text) const
+    {
+        ASSERT_TRUE(writeTextAtomically(temp_ / name, text).ok());
+    }
+
+    std::string bytesOf(const std::string& pack) const
+    {
+        Result<std::string> index = readTextFile(temp_ / (pack + "/index")),
+                            tile = readTextFile(temp_ / (pack + "/tile-0000"));
+        EXPECT_TRUE(index.ok() && tile.ok()) << pack;
+        return index && tile ? *index + *tile : "";
+    }
+
+    /// One line that holds `what`, exit code 1, and no file more than before.
+    void expectRefusal(const std::string& arguments, const std::string& what) const
+    {
+        const size_t before = temp_.entryCount();
+        const RunResult result = bake(arguments);
+        EXPECT_EQ(result.exitCode, 1) << arguments;
+        EXPECT_EQ(result.errorLines(), 1u) << arguments << ": " << result.err;
+        EXPECT_EQ(result.err.rfind("heliopolis-bake: ", 0), 0u) << result.err;
+        EXPECT_NE(result.err.find(what), std::string::npos) << arguments << ": " << result.err;
+        EXPECT_EQ(result.out, "") << arguments;
+        EXPECT_EQ(temp_.entryCount(), before) << arguments << " left something behind";
+    }
+
+    TempFolder temp_;
+};
+
+TEST_F(BakeCli, HelpSaysUnitsAndExitsWithZero)
+{
+    const RunResult result = bake("--help");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* word :
+         {"--lat", "degrees", "--height", "metres", "--jobs", "--method", "paper-literal", "export", "verify", "info"})
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+    EXPECT_EQ(bake("export --help").exitCode, 0);
+}
+
+TEST_F(BakeCli, RefusesBadUsage)
+{
+    put("town.geojson", kTown);
+    expectRefusal("town.geojson", "-o PACK is missing");
+    expectRefusal("town.geojson -o p --fast", "--fast");
+    expectRefusal("town.geojson -o p --jobs many", "--jobs");
+    expectRefusal("town.geojson -o p --method wrong", "wrong");
+    expectRefusal("town.geojson -o p --lat 91", "--lat");
+    expectRefusal("town.geojson more -o p", "more");
+    expectRefusal("info", "PACK is required");
+    expectRefusal("export p", "--surfaces is required");
+    expectRefusal("town.geojson -o missing/p", "there is no such folder");
+    expectRefusal("town.geojson -o town.geojson", "is not a pack; it is not replaced");
+    expectRefusal("scene.obj -o p", "needs the CSV");
+    expectRefusal("--surfaces scene.csv -o p", "goes with an OBJ file");
+}
+
+TEST_F(BakeCli, RefusesBadInput)
+{
+    expectRefusal("none.geojson -o p", "none.geojson");
+    put("text.geojson", "this is not JSON");
+    expectRefusal("text.geojson -o p", "text.geojson");
+    put("list.geojson", "[1,2,3]");
+    expectRefusal("list.geojson -o p", "list.geojson");
+    put("cut.geojson", std::string(kTown).substr(0, 200));
+    expectRefusal("cut.geojson -o p", "cut.geojson");
+    put("empty.geojson", R"({"type":"FeatureCollection","features":[]})");
+    expectRefusal("empty.geojson -o p", "empty.geojson");
+    put("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    put("scene.csv",
+        "kind,building,facade,floor,bay,rho_r,rho_g,rho_b,emit_r,emit_g,emit_b\nwall,0,0,0,0,.5,.5,.5,0,0,0\n");
+    expectRefusal("scene.obj --surfaces scene.csv -o p", "scene.obj:4");
+    expectRefusal("scene.obj --surfaces none.csv -o p", "none.csv");
+}
+
+TEST_F(BakeCli, RefusesBadRules)
+{
+    put("town.geojson", kTown);
+    expectRefusal("town.geojson --rules none.cga -o p", "none.cga");
+    put("bad.cga", "Lot --> extrude(9) Mass\nMass -->\n    wobble(3) Roof\n");
+    expectRefusal("town.geojson --rules bad.cga -o p", "bad.cga:3:5");
+    put("asset.cga", "Lot --> extrude(9) comp(f) { side : Wall | top : Roof }\nWall --> i(\"facade/none.glb\")\n");
+    expectRefusal("town.geojson --rules asset.cga -o p", "facade/none.glb");
+}
+
+TEST_F(BakeCli, RefusesDamagedPacks)
+{
+    ASSERT_TRUE(writePack(test::samplePack(), temp_ / "good").ok());
+    EXPECT_EQ(bake("verify good").exitCode, 0);
+    EXPECT_EQ(bake("info good").exitCode, 0);
+    const std::string index = *readTextFile(temp_ / "good/index"), tile = *readTextFile(temp_ / "good/tile-0000");
+    std::string flipped = tile, version = tile, indexVersion = index;
+    flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
+    version[8] = 2;
+    indexVersion.replace(indexVersion.find("1\n"), 1, "2");
+    struct Damage
+    {
+        std::string index, tile;
+        const char* what;
+    };
+    for (const Damage& damage :
+         {Damage{index, tile.substr(0, tile.size() - 1), "its header says"},
+          Damage{index, tile.substr(0, 40), "ends inside the header"}, Damage{index, flipped, "the checksum"},
+          Damage{index, version, "version 2"}, Damage{indexVersion, tile, "version 2"},
+          Damage{index.substr(0, 99), tile, "checksum line"}, Damage{"{}", tile, "this is not the index"}}) {
+        std::filesystem::create_directory(temp_ / "p");
+        put("p/index", damage.index);
+        put("p/tile-0000", damage.tile);
+        for (const char* command : {"info p", "verify p", "export p --surfaces out"}) {
+            expectRefusal(command, damage.what);
+            expectRefusal(command, "bake");
+        }
+    }
+    expectRefusal("info none", "there is no such pack");
+}
+
+TEST_F(BakeCli, ScenesComeBackFromExport)
+{
+    ASSERT_EQ(bake(kScene + ".obj --surfaces " + kScene + ".csv --rays 16 -o first").exitCode, 0);
+    ASSERT_EQ(bake("export first --surfaces again").exitCode, 0);
+    const RunResult second = bake("again.obj --surfaces again.csv --rays 16 -o second");
+    ASSERT_EQ(second.exitCode, 0) << second.err;
+    const Result<Pack> first = Pack::open(temp_ / "first"), back = Pack::open(temp_ / "second");
+    ASSERT_TRUE(first.ok() && back.ok());
+    ASSERT_EQ(first->patchCount(), back->patchCount());
+    EXPECT_EQ(back->index().sourceFaceCount, first->patchCount());
+    for (const gpu::PatchRecord& patch : back->tile().patches) {
+        const gpu::PatchRecord& was = first->tile().patches[patch.sourceFace];
+        ASSERT_NEAR(double(patch.area), double(was.area), 1e-6 * double(was.area));
+        ASSERT_EQ(patch.rho, was.rho);
+        ASSERT_EQ(patch.emission, was.emission);
+        ASSERT_EQ(patch.building, was.building);
+    }
+}
+
+TEST_F(BakeCli, CitiesComeBackFromExport)
+{
+    put("town.geojson", kTown);
+    const RunResult baked = bake("town.geojson --rays 16 -o first");
+    ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    ASSERT_EQ(bake("export first --surfaces again").exitCode, 0);
+    const RunResult second = bake("again.obj --surfaces again.csv --rays 16 -o second");
+    ASSERT_EQ(second.exitCode, 0) << second.err;
+    const Result<Pack> first = Pack::open(temp_ / "first"), back = Pack::open(temp_ / "second");
+    ASSERT_TRUE(first.ok() && back.ok());
+    ASSERT_EQ(first->patchCount(), back->patchCount());
+    for (const gpu::PatchRecord& patch : back->tile().patches) {
+        const gpu::PatchRecord& was = first->tile().patches[patch.sourceFace];
+        ASSERT_NEAR(double(patch.area), double(was.area), 1e-6 * double(was.area)) << "face " << patch.sourceFace;
+        ASSERT_EQ(patch.rho, was.rho);
+    }
+}
+
+TEST_F(BakeCli, SameBytesForAnyNumberOfThreads)
+{
+    put("town.geojson", kTown);
+    for (const std::string& input : {std::string("town.geojson"), kScene + ".obj --surfaces " + kScene + ".csv"}) {
+        ASSERT_EQ(bake(input + " --jobs 1 -o one").exitCode, 0);
+        ASSERT_EQ(bake(input + " --jobs 2 -o two").exitCode, 0);
+        ASSERT_EQ(bake(input + " --jobs 3 -o again").exitCode, 0);
+        const std::string bytes = bytesOf("one");
+        EXPECT_GT(bytes.size(), 10000u);
+        EXPECT_TRUE(bytes == bytesOf("two")) << input;
+        EXPECT_TRUE(bytes == bytesOf("again")) << input;
+    }
+}
+
+TEST_F(BakeCli, OptionsChangeTheBytes)
+{
+    put("town.geojson", kTown);
+    ASSERT_EQ(bake("town.geojson --rays 16 -o a").exitCode, 0);
+    ASSERT_EQ(bake("town.geojson --rays 16 --seed 2 -o b").exitCode, 0);
+    ASSERT_EQ(bake("town.geojson --rays 16 --method paper -o c").exitCode, 0);
+    EXPECT_NE(bytesOf("a"), bytesOf("b"));
+    EXPECT_EQ(Pack::open(temp_ / "b")->index().seed, 2u);
+    EXPECT_EQ(Pack::open(temp_ / "c")->index().method, "paper");
+    EXPECT_EQ(Pack::open(temp_ / "a")->index().source, "town.geojson");
+}
+
+TEST_F(BakeCli, StatisticsAgreeWithThePack)
+{
+    put("town.geojson", kTown);
+    const RunResult result = bake("town.geojson --rays 16 --stats s.json -o p");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "") << "a log holds errors alone";
+    for (const char* word : {"buildings 2", "nodes", "patches", "links", "per patch", "row sum + sky",
+                             "area-ledger defect", "seconds", "peak memory"})
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+    const nlohmann::json stats = nlohmann::json::parse(*readTextFile(temp_ / "s.json"), nullptr, false);
+    const Result<Pack> pack = Pack::open(temp_ / "p");
+    ASSERT_TRUE(stats.is_object() && pack.ok());
+    EXPECT_EQ(stats["buildings"], 2);
+    EXPECT_EQ(stats["patches"], pack->patchCount());
+    EXPECT_EQ(stats["nodes"], pack->nodeCount());
+    EXPECT_EQ(stats["links"], pack->tile().linkColumns.size());
+    EXPECT_LE(stats["area_ledger_defect"].get<double>(), 1e-5);
+    EXPECT_GT(stats["peak_memory_mib"].get<double>(), 1.0);
+    EXPECT_EQ(temp_.entryCount(), 3u) << "town, statistics, pack";
+}
+
+TEST_F(BakeCli, CtrlCLeavesNothing)
+{
+    const RunResult result =
+        test::runProgram("/usr/bin/timeout", "-s INT 0.2 '" HELIO_BAKE "' --jobs 1 -o p", temp_.path());
+    EXPECT_EQ(result.exitCode, 124) << "the built-in city takes longer than 0.2 s";
+    EXPECT_EQ(temp_.entryCount(), 0u);
+}
+
+} // namespace
+} // namespace helio

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a node tree to the records and meshes of a pack.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "city/format/validate.h"
+#include "city/pack/content_builder.h"
+#include "city/pack/vertex_pack.h"
+
+namespace helio {
+namespace {
+
+/// A facade of two tiles at y = 1000.3 that face south, a wall and a window that an asset fills, with a sill as
+/// overlay; and 4 x 4 m of ground with a hole of 1 m2.
+ShapeTree sampleShapes()
+{
+    const double y = 1000.3;
+    ShapeTree t;
+    t.names = {"Lot", "Facade", "Wall", "Window", "Sill", "Ground"};
+    t.surfaces = {{"plaster", {0.6, 0.5, 0.4, 0.52}, glm::dvec4(0)}, {"asphalt", glm::dvec4(0.1), {0, 0, 3, 0}}};
+    t.assets = {"unused.glb", "window.glb", "sill.glb"};
+    t.buildingIds = {"a\nb"};
+    t.polygons = {{{{0, y, 0}, {1, y, 0}, {1, y, 2}, {0, y, 2}}, {}},
+                  {{{1, y, 0}, {3, y, 0}, {3, y, 2}, {1, y, 2}}, {}},
+                  {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{{1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}}}}};
+    const auto add = [&](u32 parent, u32 name, u32 building, ShapeOp op) -> Shape& {
+        Shape& shape = t.shapes.emplace_back();
+        shape.parent = parent;
+        shape.name = name;
+        shape.building = building;
+        shape.op = op;
+        return shape;
+    };
+    add(kNoIndex, 0, 0, ShapeOp::Root);
+    add(0, 1, 0, ShapeOp::Component);
+    Shape& wall = add(1, 2, 0, ShapeOp::Split);
+    wall.polygonBegin = 0, wall.polygonCount = 1, wall.surface = 0;
+    Shape& window = add(1, 3, 0, ShapeOp::Insert);
+    window.polygonBegin = 1, window.polygonCount = 1, window.surface = 0, window.asset = 1,
+    window.placement = AssetPlacement::Fill;
+    window.worldFromAsset =
+        glm::dmat4x3(glm::dvec3(2, 0, 0), glm::dvec3(0, 0, 2), glm::dvec3(0, -1, 0), glm::dvec3(1, y, 0));
+    Shape& sill = add(1, 4, 0, ShapeOp::Insert);
+    sill.asset = 2, sill.placement = AssetPlacement::Overlay;
+    sill.worldFromAsset =
+        glm::dmat4x3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(1.5, y, 0.2));
+    add(kNoIndex, 5, kNoIndex, ShapeOp::Root);
+    Shape& ground = add(5, 5, kNoIndex, ShapeOp::Split);
+    ground.polygonBegin = 2, ground.polygonCount = 1, ground.surface = 1;
+    return t;
+}
+
+/// A triangle with its box; the window's reaches one unit in front of the plane.
+AssetMesh triangleAsset(float depth, const glm::dvec4& rho)
+{
+    AssetMesh mesh;
+    mesh.positions = {{0, 0, depth}, {1, 0, depth}, {0, 1, depth}};
+    mesh.normals.assign(3, {0, 0, 1});
+    mesh.albedos.assign(3, {1, 0.5f, 0});
+    mesh.indices = {0, 1, 2};
+    mesh.boxMin = {0, 0, 0};
+    mesh.boxMax = {1, 1, double(depth)};
+    mesh.rho = rho;
+    return mesh;
+}
+
+struct Built
+{
+    NodeTreeBuild nodes;
+    PackContent content;
+};
+
+Built buildSample()
+{
+    const std::vector<AssetMesh> meshes = {triangleAsset(9, glm::dvec4(0)), triangleAsset(1, {0.2, 0.2, 0.2, 0.3}),
+                                           triangleAsset(0.25f, glm::dvec4(0))};
+    std::vector<AssetSummary> summaries;
+    for (const AssetMesh& mesh : meshes) summaries.push_back({mesh.rho, 0.5 * (mesh.boxMin + mesh.boxMax)});
+    Built built{buildNodes(sampleShapes(), summaries), {}};
+    LightBake light;
+    light.links.rowBegin.assign(built.nodes.tree.nodeCount() + 1, 0);
+    light.sky.skyPatches = {{{0, 0, 1}, 6.2831853f}};
+    light.sky.rowBegin = {0, 1, 2, 3};
+    light.sky.column = {0, 0, 0};
+    light.sky.factor = {0.5f, 0.5f, 1.0f};
+    built.content = buildContent(built.nodes, meshes, std::move(light));
+    return built;
+}
+
+TEST(PackContent, IsValid)
+{
+    const Built built = buildSample();
+    const Status status = validateTile(built.content.view(), built.content.index, {});
+    EXPECT_TRUE(status.ok()) << status.error().message;
+}
+
+TEST(PackContent, PatchesCarrySurfaceOrAsset)
+{
+    const Built built = buildSample();
+    const std::vector<gpu::PatchRecord>& patches = built.content.patches;
+    ASSERT_EQ(patches.size(), 3u);
+    EXPECT_EQ(patches[0].rho, glm::vec4(0.6f, 0.5f, 0.4f, 0.52f));
+    EXPECT_FLOAT_EQ(patches[0].area, 2.0f);
+    EXPECT_EQ(patches[1].rho, glm::vec4(0.2f, 0.2f, 0.2f, 0.3f)) << "the asset's reflectance, not the wall's";
+    EXPECT_FLOAT_EQ(patches[1].area, 4.0f);
+    EXPECT_FLOAT_EQ(patches[2].area, 15.0f);
+    EXPECT_EQ(patches[2].building, gpu::kNone);
+    EXPECT_EQ(patches[2].emission, glm::vec4(0, 0, 3, 0));
+    EXPECT_EQ(patches[2].surface, 1u);
+    EXPECT_EQ(patches[2].normal, glm::vec3(0, 0, 1));
+    EXPECT_EQ(built.content.buildingIds, "a b\n") << "a line break would make two names of one";
+    EXPECT_EQ(built.content.surfaceNames, "plaster\nasphalt\n");
+}
+
+TEST(PackContent, OutlinesKeepDoublePrecision)
+{
+    const Built built = buildSample();
+    const PackContent& c = built.content;
+    EXPECT_NE(double(c.outlinePoints[0].y), 1000.3) << "1000.3 is no float: the sample must need the rest";
+    EXPECT_NEAR(double(c.outlinePoints[0].y) + double(c.outlineRests[0].y), 1000.3, 1e-11);
+    // The ground's outline: outer ring of four corners, then a hole of four.
+    const u32 ring = c.outlineRows[2];
+    EXPECT_EQ(c.outlineRows[3] - ring, 2u);
+    EXPECT_EQ(c.outlineRings[ring] & 1u, 0u);
+    EXPECT_EQ(c.outlineRings[ring + 1] & 1u, 1u);
+    EXPECT_EQ((c.outlineRings[ring + 2] >> 1) - (c.outlineRings[ring + 1] >> 1), 4u);
+}
+
+TEST(PackContent, StaticMeshCoversWhatNoAssetFills)
+{
+    const Built built = buildSample();
+    const PackContent& c = built.content;
+    ASSERT_GE(c.draws.size(), 1u);
+    std::vector<double> area(3, 0.0);
+    for (u32 k = 0; k < c.draws[0].indexCount; k += 3) {
+        const gpu::VertexRecord &v0 = c.vertices[c.indices[k]], &v1 = c.vertices[c.indices[k + 1]],
+                                &v2 = c.vertices[c.indices[k + 2]];
+        const glm::vec3 twice = glm::cross(v1.position - v0.position, v2.position - v0.position);
+        EXPECT_GT(glm::dot(twice, c.patches[v0.patchId].normal), 0.0f) << "front faces run counter-clockwise";
+        EXPECT_EQ(v0.patchId, v1.patchId);
+        EXPECT_EQ(v0.patchId, v2.patchId);
+        EXPECT_EQ(v0.normal, packNormal(c.patches[v0.patchId].normal));
+        EXPECT_EQ(v0.albedo, packAlbedo(glm::dvec3(c.patches[v0.patchId].rho)));
+        area[v0.patchId] += 0.5 * double(glm::length(twice));
+    }
+    EXPECT_NEAR(area[0], 2.0, 1e-4);
+    EXPECT_EQ(area[1], 0.0) << "the window is drawn by its asset";
+    EXPECT_NEAR(area[2], 15.0, 1e-4);
+}
+
+TEST(PackContent, AssetsAreDrawnOncePerMesh)
+{
+    const Built built = buildSample();
+    const PackContent& c = built.content;
+    ASSERT_EQ(c.draws.size(), 3u) << "static mesh, window, sill; the unused asset is left out";
+    ASSERT_EQ(c.instances.size(), 3u);
+    EXPECT_EQ(c.instances[0].patchId, 0u);
+    for (u32 d = 1; d < 3; ++d) {
+        EXPECT_EQ(c.draws[d].indexCount, 3u);
+        EXPECT_EQ(c.draws[d].instanceCount, 1u);
+        EXPECT_EQ(c.draws[d].firstInstance, d);
+        EXPECT_EQ(c.instances[d].patchId, 1u) << "the window fills patch 1 and the sill hangs before it";
+    }
+    // Asset corner (1, 0, 1) of the window: x doubled, one unit to the front (south), at the tile's corner.
+    const gpu::InstanceRecord& window = c.instances[1];
+    const glm::vec4 corner(1, 0, 1, 1);
+    EXPECT_FLOAT_EQ(glm::dot(window.worldFromLocal[0], corner), 3.0f);
+    EXPECT_FLOAT_EQ(glm::dot(window.worldFromLocal[1], corner), 999.3f);
+    EXPECT_FLOAT_EQ(glm::dot(window.worldFromLocal[2], corner), 0.0f);
+    EXPECT_EQ(c.vertices[c.draws[1].vertexOffset].albedo, 255u | 128u << 8 | 0u << 16 | 255u << 24);
+}
+
+TEST(PackContent, BoundsHoldMeshesAndInstances)
+{
+    const PackIndex index = buildSample().content.index;
+    EXPECT_EQ(index.boundsMin, glm::vec3(0, 0, 0));
+    EXPECT_FLOAT_EQ(index.boundsMax.x, 4.0f);
+    EXPECT_FLOAT_EQ(index.boundsMax.y, 1000.3f);
+    EXPECT_FLOAT_EQ(index.boundsMax.z, 2.0f);
+}
+
+TEST(PackVertex, NormalsAndAlbedosByHand)
+{
+    EXPECT_EQ(packNormal({1, 0, 0}), 511u);
+    EXPECT_EQ(packNormal({-1, 0, 0}), 1024u - 511u);
+    EXPECT_EQ(packNormal({0, 1, 0}), 511u << 10);
+    EXPECT_EQ(packNormal({0, 0, -1}), (1024u - 511u) << 20);
+    EXPECT_EQ(packAlbedo({1, 0, 0}), 0xFF0000FFu);
+    EXPECT_EQ(packAlbedo({0, 0.5, 2}), 0xFFFF8000u);
+}
+
+} // namespace
+} // namespace helio

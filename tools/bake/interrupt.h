@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace helio {
+
+/// While it lives, Ctrl-C and SIGTERM only set a flag, so that a half-written pack can be removed; the destructor gives
+/// the signals back. Before and after it they end the program at once, as there is nothing to clean up.
+class InterruptGuard
+{
+public:
+    InterruptGuard();
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+    /// The signal that came, or 0.
+    static int caught();
+};
+
+/// Ends the program as the signal would have.
+[[noreturn]] void dieOf(int signal);
+
+} // namespace helio

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "city/base/file.h"
+#include "engine/view/picture_file.h"
+#include "engine/view/renderer.h"
+#include "tools/render/options.h"
+#include "tools/render/table.h"
+
+namespace helio {
+
+namespace {
+
+enum ExitCode
+{
+    kOk = 0,
+    kBadInput = 1,
+    kInternal = 2
+};
+
+int complain(std::string message, ExitCode code)
+{
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::fprintf(stderr, "heliopolis-render: %s\n", message.c_str());
+    return code;
+}
+
+/// Prints the seconds since the last call, by name.
+class Steps
+{
+public:
+    void done(const char* name)
+    {
+        const auto now = std::chrono::steady_clock::now();
+        std::printf("  %-28s %9.1f ms\n", name, std::chrono::duration<double, std::milli>(now - last_).count());
+        last_ = now;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void printSolve(const SolveReport& report)
+{
+    std::printf("Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an ancestor's "
+                "ratio, %u clamped\n",
+                report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY, report.litPatches,
+                report.flaggedPatches, report.excessPatches);
+    std::printf("Residual %.3g after %u sweeps; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
+                report.meanRadiosity.a);
+    std::printf("On the device:\n");
+    for (const PassTime& stage : report.stages) std::printf("  %-28s %9.2f ms\n", stage.name.c_str(), stage.milliseconds);
+}
+
+void printPicture(const Picture& picture)
+{
+    double total = 0.0;
+    for (const PassTime& pass : picture.passes) total += pass.milliseconds;
+    std::printf("  %-28s %9.2f ms\n", "4 forward shading, tone", total);
+}
+
+std::string describeLight(const RenderOptions& o, const SolveReport& report)
+{
+    return concat("sun azimuth ", o.sun.x, " elevation ", o.sun.y, " degrees, DNI ", o.dni, ", uniform sky DHI ", o.dhi,
+                  o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual, " after ", report.sweeps, " sweeps");
+}
+
+Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptions& o)
+{
+    ViewOptions view;
+    view.mode = o.mode;
+    view.samples = o.samples;
+    view.smoothLight = o.smooth;
+    view.exposureStops = o.exposureStops;
+    if (!o.png.empty()) {
+        const Picture picture = renderer.render(camera, o.width, o.height, view);
+        printPicture(picture);
+        if (Status written = writePng(o.png, o.width, o.height, picture.display); !written) return written;
+    }
+    if (!o.exr.empty()) {
+        view.display = false;
+        view.smoothLight = false;
+        const Picture picture = renderer.render(camera, o.width, o.height, view);
+        if (o.png.empty()) printPicture(picture);
+        if (Status written = writeExr(o.exr, o.width, o.height, exrChannels(picture, o.mode)); !written) return written;
+    }
+    return Nothing{};
+}
+
+int runMain(int argc, char** argv)
+{
+    bool done = false;
+    const Result<RenderOptions> parsed = parseCommandLine(argc, argv, done);
+    if (!parsed) return complain(parsed.error().message, kBadInput);
+    if (done) return kOk;
+    const RenderOptions& o = *parsed;
+
+    Steps steps;
+    const Result<Pack> pack = Pack::open(o.pack);
+    if (!pack) return complain(pack.error().message, kBadInput);
+    if (o.rows == TableRows::Face && !o.table.empty() && pack->index().sourceFaceCount == 0)
+        return complain(concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"), kBadInput);
+    const Result<Camera> camera = parseCamera(o.camera, *pack);
+    if (!camera) return complain(camera.error().message, kBadInput);
+
+    ContextOptions contextOptions;
+    contextOptions.validation = o.validate;
+    contextOptions.device = o.device;
+    const Result<std::unique_ptr<Context>> opened = Context::create(contextOptions);
+    if (!opened) return complain(opened.error().message, kInternal);
+    Context& context = **opened;
+    if (o.validate && !context.validating())
+        return complain("the validation layer is missing: install the Debian package vulkan-validationlayers", kInternal);
+    const u32 largest = context.facts().maxImageDimension2D;
+    if (o.width * o.samples > largest || o.height * o.samples > largest)
+        return complain(concat("--size ", o.width, "x", o.height, " with ", o.samples, " samples is beyond this device's ", largest,
+                               " texels; make the picture or --samples smaller"), kBadInput);
+    std::printf("%s on %s: %u patches, %u nodes, %zu links\n", o.pack.c_str(), context.describe().c_str(), pack->patchCount(),
+                pack->nodeCount(), pack->tile().linkColumns.size());
+    steps.done("read the pack, open device");
+
+    RendererOptions options;
+    options.solve.residual = o.residual;
+    options.solve.exactSweeps = o.sweeps;
+    if (o.sunTexel > 0.0) options.sun.texel = o.sunTexel;
+    const Result<std::unique_ptr<Renderer>> created = Renderer::create(context, *pack, options);
+    if (!created) return complain(concat(o.pack, ": ", created.error().message), kBadInput);
+    Renderer& renderer = **created;
+    steps.done("upload");
+
+    renderer.setSun(o.sun.x, o.sun.y, o.dni);
+    renderer.setSky(o.dhi);
+    renderer.setEmission(o.emission);
+    const SolveReport report = renderer.solve();
+    steps.done("solve");
+    printSolve(report);
+    if (const Status written = writePictures(renderer, *camera, o); !written) return complain(written.error().message, kBadInput);
+    if (!o.table.empty()) {
+        const Result<std::string> text = tableText(*pack, renderer.readTables(), o.rows, describeLight(o, report));
+        if (!text) return complain(text.error().message, kBadInput);
+        if (const Status written = writeTextAtomically(o.table, *text); !written) return complain(written.error().message, kBadInput);
+    }
+    steps.done("pictures and table");
+    if (o.validate) {
+        for (const std::string& message : context.messages().all()) complain(message, kInternal);
+        if (context.messages().count() > 0) return kInternal;
+        std::printf("No validation messages\n");
+    }
+    return kOk;
+}
+
+} // namespace
+
+} // namespace helio
+
+int main(int argc, char** argv)
+{
+    try {
+        return helio::runMain(argc, argv);
+    } catch (const std::exception& error) {
+        return helio::complain(helio::concat("internal error: ", error.what()), helio::kInternal);
+    }
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/render/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+namespace helio {
+
+namespace {
+
+const std::map<std::string, u32> kModes{{"final", gpu::kModeFinal},       {"id", gpu::kModeId},
+                                        {"depth", gpu::kModeDepth},       {"sun-visibility", gpu::kModeSunVisibility},
+                                        {"esun", gpu::kModeSun},          {"esky", gpu::kModeSky},
+                                        {"eindirect", gpu::kModeIndirect}, {"radiosity", gpu::kModeRadiosity}};
+constexpr u32 kMaxSize = 16384;
+
+std::string checkSize(const std::string& text, u32& width, u32& height)
+{
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%n", &width, &height, &used) != 2 || size_t(used) != text.size() || width < 1 ||
+        height < 1 || width > kMaxSize || height > kMaxSize)
+        return concat("--size ", text, ": expected WIDTHxHEIGHT in pixels, 1 to ", kMaxSize, " each");
+    return {};
+}
+
+std::string checkSun(const std::string& text, glm::dvec2& sun)
+{
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%lf,%lf%n", &sun.x, &sun.y, &used) != 2 || size_t(used) != text.size() ||
+        !(sun.x >= -360.0 && sun.x <= 360.0) || !(sun.y >= -90.0 && sun.y <= 90.0))
+        return concat("--sun ", text, ": expected AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90");
+    return {};
+}
+
+} // namespace
+
+Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
+{
+    RenderOptions o;
+    std::string sun = "180,45", sky = "uniform", size = "1280x720", per = "patch", view = "final";
+    bool noEmission = false, flat = false;
+    CLI::App app{"Lights a pack and draws it without a window: pictures, outputs of every stage, tables of irradiance.\n"
+                 "Exit codes: 0 = ok, 1 = bad input or usage, 2 = device or internal.",
+                 "heliopolis-render"};
+    app.add_option("PACK", o.pack, "pack folder, from heliopolis-bake")->required();
+    app.add_option("--sun", sun, "azimuth,elevation in degrees; azimuth clockwise from true north")->capture_default_str();
+    app.add_option("--dni", o.dni, "direct normal irradiance of the sun, W/m2")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+    app.add_option("--sky", sky, "sky model: uniform")->check(CLI::IsMember({"uniform"}))->capture_default_str();
+    app.add_option("--dhi", o.dhi, "diffuse horizontal irradiance of the sky, W/m2")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+    app.add_flag("--no-emission", noEmission, "switch off what patches emit themselves");
+    app.add_option("--camera", o.camera, "aerial, street, top, or x,y,z,tx,ty,tz[,fov] (m, vertical degrees)")->capture_default_str();
+    app.add_option("--size", size, "WIDTHxHEIGHT of the picture, pixels")->capture_default_str();
+    auto* residual = app.add_option("--residual", o.residual, "sweep until the relative residual is at most this")
+                         ->check(CLI::Range(1e-7, 1.0))->capture_default_str();
+    app.add_option("--iterations", o.sweeps, "make exactly this many sweeps instead")->check(CLI::Range(1u, 100000u))->excludes(residual);
+    app.add_option("--sun-texel", o.sunTexel, "size of a texel of the sun raster, m; 0 = 0.04 or what the scene allows")
+        ->check(CLI::Range(0.0, 100.0))->capture_default_str();
+    app.add_option("--samples", o.samples, "samples a pixel along each axis")->check(CLI::Range(1u, 4u))->capture_default_str();
+    app.add_option("--exposure", o.exposureStops, "stops added to the automatic exposure")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
+    app.add_flag("--flat", flat, "one light value a patch in the picture, not interpolated");
+    app.add_option("-o,--output", o.png, "picture as PNG, sRGB");
+    app.add_option("--exr", o.exr, "picture as EXR, linear: W/m2/sr for final, without display tints; else the view's own unit");
+    app.add_option("--table", o.table, "irradiance and radiosity as CSV, W/m2");
+    app.add_option("--per", per, "row of the table: patch, or face of the OBJ")->check(CLI::IsMember({"patch", "face"}))->capture_default_str();
+    app.add_option("--view", view, "final, id, depth, sun-visibility, esun, esky, eindirect or radiosity")
+        ->check(CLI::IsMember(kModes))->capture_default_str();
+    app.add_option("--device", o.device, "part of the Vulkan device's name (default: HELIO_DEVICE, else the fastest kind)");
+    app.add_flag("--validate", o.validate, "run under the validation layer; any message is a failure (exit 2)");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {
+            done = true;
+            app.exit(error);
+            return o;
+        }
+        return Error{concat(error.what(), "; see --help")};
+    }
+    if (const std::string wrong = checkSun(sun, o.sun); !wrong.empty()) return Error{wrong};
+    if (const std::string wrong = checkSize(size, o.width, o.height); !wrong.empty()) return Error{wrong};
+    if (o.png.empty() && o.exr.empty() && o.table.empty())
+        return Error{"nothing to do: ask for a picture (-o A.png, --exr A.exr) or a table (--table T.csv); see --help"};
+    o.emission = !noEmission;
+    o.smooth = !flat;
+    o.rows = per == "face" ? TableRows::Face : TableRows::Patch;
+    o.mode = kModes.at(view);
+    return o;
+}
+
+} // namespace helio

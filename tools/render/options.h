@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "city/base/result.h"
+#include "city/base/types.h"
+#include "shaders/shared/view.h"
+#include "tools/render/table.h"
+
+namespace helio {
+
+/// The command line of heliopolis-render.
+struct RenderOptions
+{
+    std::string pack;
+    glm::dvec2 sun{180.0, 45.0}; ///< azimuth, elevation, degrees
+    double dni = 800.0, dhi = 120.0; ///< W/m2
+    bool emission = true;
+    std::string camera = "aerial";
+    u32 width = 1280, height = 720;
+    u32 sweeps = 0;          ///< > 0: exactly this many
+    double residual = 1e-3;
+    double sunTexel = 0.0;   ///< m; 0 = the default
+    u32 samples = 3;
+    double exposureStops = 0.0;
+    bool smooth = true;
+    std::string png, exr, table;
+    TableRows rows = TableRows::Patch;
+    u32 mode = gpu::kModeFinal;
+    std::string device;
+    bool validate = false;
+};
+
+/// Parses the command line. `done` is set when the program has nothing more to do (--help). Errors: one line each.
+Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done);
+
+} // namespace helio

@@ -6,8 +6,9 @@
 #include "shaders/shared/sun.h"
 #include "shaders/shared/view.h"
 #include "shaders/lib/mesh.glsl"
-#include "shaders/lib/view.glsl"
 
+layout(constant_id = 1) const bool kInterpolate = false; // of the static mesh alone
+layout(push_constant, scalar) uniform Params { ForwardParams params; };
 layout(location = kAttributeNormal) in uint aNormal;
 layout(location = kAttributeAlbedo) in uint aAlbedo;
 layout(set = 0, binding = kForwardCorners, scalar) readonly buffer Corners { uint corners[]; };
@@ -18,7 +19,6 @@ layout(location = 2) out vec3 vAlbedo;
 layout(location = 3) out vec3 vSky;
 layout(location = 4) out vec3 vIndirect;
 layout(location = 5) flat out uint vPatch;
-layout(location = 6) flat out uint vInterpolated;
 
 // A2B10G10R10_SNORM: x in the low ten bits.
 vec3 unpackNormal(uint bits)
@@ -44,12 +44,10 @@ void main()
     vPatch = patchOfVertex();
     vSky = vec3(0.0);
     vIndirect = vec3(0.0);
-    vInterpolated = 0u;
-    if (view.smoothLight != 0u && gl_InstanceIndex == 0 && uint(gl_VertexIndex) < view.staticVertexCount) {
+    if (kInterpolate) {
         const uint k = corners[gl_VertexIndex];
         vSky = corner[2u * k].rgb;
         vIndirect = corner[2u * k + 1u].rgb;
-        vInterpolated = 1u;
     }
-    gl_Position = view.clipFromWorld * vec4(vPosition, 1.0);
+    gl_Position = params.clipFromWorld * vec4(vPosition, 1.0);
 }

@@ -7,9 +7,15 @@
 
 namespace helio {
 
-enum class ShaderStage : u32 { Compute, Vertex, Fragment };
+enum class ShaderStage : u32
+{
+    Compute,
+    Vertex,
+    Fragment
+};
 
-enum class BindingKind : u32 {
+enum class BindingKind : u32
+{
     StorageBuffer,      // buffer { ... }
     UniformTexelBuffer, // samplerBuffer, usamplerBuffer, isamplerBuffer
     SampledImage,       // sampler2D, sampler2DArray, sampler2DShadow, usampler2D, ...
@@ -23,7 +29,8 @@ struct ShaderBinding
     BindingKind kind;
 };
 
-/// An embedded shader; entry point "main". Objects of this type have static storage, so their address is their identity.
+/// An embedded shader; entry point "main". Objects of this type have static storage, so their address is their
+/// identity.
 struct ShaderCode
 {
     const char* name; // source file (and variant), for messages and debug names

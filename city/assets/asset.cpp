@@ -39,7 +39,8 @@ public:
     bool run()
     {
         for (const std::string& name : model_.extensionsRequired)
-            if (name != "KHR_materials_unlit") return fail(concat("it requires the extension ", name, ", which is not read: export it without"));
+            if (name != "KHR_materials_unlit")
+                return fail(concat("it requires the extension ", name, ", which is not read: export it without"));
         if (model_.scenes.empty()) {
             for (size_t k = 0; k < model_.meshes.size(); ++k)
                 if (!addMesh(int(k), glm::dmat4(1.0))) return false;
@@ -86,7 +87,8 @@ private:
     bool addNode(int index, const glm::dmat4& parent, int depth)
     {
         if (index < 0 || size_t(index) >= model_.nodes.size()) return fail(concat("node ", index, " does not exist"));
-        if (depth > kMaxNodeDepth) return fail(concat("its nodes nest deeper than ", kMaxNodeDepth, " levels, or in a circle"));
+        if (depth > kMaxNodeDepth)
+            return fail(concat("its nodes nest deeper than ", kMaxNodeDepth, " levels, or in a circle"));
         const tinygltf::Node& node = model_.nodes[size_t(index)];
         const glm::dmat4 transform = parent * transformOf(node);
         if (node.mesh >= 0 && !addMesh(node.mesh, transform)) return false;
@@ -105,16 +107,20 @@ private:
 
     bool addPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& transform)
     {
-        if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) return fail("it has points, lines or strips; only triangle lists are read");
+        if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1)
+            return fail("it has points, lines or strips; only triangle lists are read");
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) return fail("a primitive has no POSITION");
         Elements positions, normals;
         if (!elements(position->second, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, positions)) return false;
         const auto normal = primitive.attributes.find("NORMAL");
         const bool hasNormals = normal != primitive.attributes.end();
-        if (hasNormals && !elements(normal->second, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, normals)) return false;
-        if (hasNormals && normals.count != positions.count) return fail("a primitive has another number of normals than of positions");
-        if (mesh_.positions.size() + positions.count > kMaxVertices) return fail(concat("it has more than ", kMaxVertices, " vertices"));
+        if (hasNormals && !elements(normal->second, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, normals))
+            return false;
+        if (hasNormals && normals.count != positions.count)
+            return fail("a primitive has another number of normals than of positions");
+        if (mesh_.positions.size() + positions.count > kMaxVertices)
+            return fail(concat("it has more than ", kMaxVertices, " vertices"));
 
         const size_t firstVertex = mesh_.positions.size(), firstIndex = mesh_.indices.size();
         const auto [albedo, rho] = materialOf(primitive.material);
@@ -125,14 +131,16 @@ private:
             if (hasNormals) std::memcpy(&n, normals.data + k * normals.stride, sizeof n);
             const glm::vec3 placed(transform * glm::dvec4(p, 1.0));
             for (int axis = 0; axis < 3; ++axis)
-                if (!(std::abs(placed[axis]) < kMaxCoordinate)) return fail(concat("vertex ", k, " is not finite or larger than ", kMaxCoordinate));
+                if (!(std::abs(placed[axis]) < kMaxCoordinate))
+                    return fail(concat("vertex ", k, " is not finite or larger than ", kMaxCoordinate));
             mesh_.positions.push_back(placed);
             mesh_.normals.push_back(glm::vec3(normalTurn * glm::dvec3(n)));
             mesh_.albedos.push_back(albedo);
         }
         if (!addIndices(primitive.indices, positions.count, firstVertex)) return false;
         if (glm::determinant(glm::dmat3(transform)) < 0.0) // a mirrored node turns its triangles inside out
-            for (size_t k = firstIndex; k + 2 < mesh_.indices.size(); k += 3) std::swap(mesh_.indices[k], mesh_.indices[k + 1]);
+            for (size_t k = firstIndex; k + 2 < mesh_.indices.size(); k += 3)
+                std::swap(mesh_.indices[k], mesh_.indices[k + 1]);
         triangleRho_.resize(mesh_.indices.size() / 3, rho);
         finishNormals(firstVertex, firstIndex);
         return true;
@@ -143,22 +151,30 @@ private:
         Elements indices;
         int componentType = 0;
         if (accessor >= 0) {
-            if (size_t(accessor) < model_.accessors.size()) componentType = model_.accessors[size_t(accessor)].componentType;
-            if (componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT && componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+            if (size_t(accessor) < model_.accessors.size())
+                componentType = model_.accessors[size_t(accessor)].componentType;
+            if (componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+                componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+                componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
                 return fail("its indices are no unsigned integers");
             if (!elements(accessor, TINYGLTF_TYPE_SCALAR, componentType, indices)) return false;
         } else {
             indices.count = vertexCount;
         }
-        if (indices.count % 3 != 0) return fail(concat("it has ", indices.count, " indices, which is no whole number of triangles"));
-        if (mesh_.indices.size() + indices.count > kMaxIndices) return fail(concat("it has more than ", kMaxIndices, " indices"));
+        if (indices.count % 3 != 0)
+            return fail(concat("it has ", indices.count, " indices, which is no whole number of triangles"));
+        if (mesh_.indices.size() + indices.count > kMaxIndices)
+            return fail(concat("it has more than ", kMaxIndices, " indices"));
         for (size_t k = 0; k < indices.count; ++k) {
             u32 index = u32(k);
             if (accessor >= 0) {
                 index = 0;
-                std::memcpy(&index, indices.data + k * indices.stride, size_t(tinygltf::GetComponentSizeInBytes(u32(componentType)))); // little endian, as the file
+                std::memcpy(
+                    &index, indices.data + k * indices.stride,
+                    size_t(tinygltf::GetComponentSizeInBytes(u32(componentType)))); // little endian, as the file
             }
-            if (index >= vertexCount) return fail(concat("index ", k, " is ", index, ", but there are only ", vertexCount, " vertices"));
+            if (index >= vertexCount)
+                return fail(concat("index ", k, " is ", index, ", but there are only ", vertexCount, " vertices"));
             mesh_.indices.push_back(u32(firstVertex) + index);
         }
         return true;
@@ -170,7 +186,8 @@ private:
         std::vector<glm::vec3> means(mesh_.positions.size() - firstVertex, glm::vec3(0.0f));
         for (size_t k = firstIndex; k < mesh_.indices.size(); k += 3) {
             const u32* v = &mesh_.indices[k];
-            const glm::vec3 n = glm::cross(mesh_.positions[v[1]] - mesh_.positions[v[0]], mesh_.positions[v[2]] - mesh_.positions[v[0]]);
+            const glm::vec3 n = glm::cross(mesh_.positions[v[1]] - mesh_.positions[v[0]],
+                                           mesh_.positions[v[2]] - mesh_.positions[v[0]]);
             for (int corner = 0; corner < 3; ++corner) means[v[corner] - firstVertex] += n;
         }
         for (size_t k = firstVertex; k < mesh_.normals.size(); ++k) {
@@ -181,8 +198,8 @@ private:
         }
     }
 
-    /// Display colour, and reflectance: by name if the name is known, else the colour. What a blended material lets through
-    /// ends in the dark behind it, so its colour counts by its opacity.
+    /// Display colour, and reflectance: by name if the name is known, else the colour. What a blended material lets
+    /// through ends in the dark behind it, so its colour counts by its opacity.
     std::pair<glm::vec3, glm::dvec4> materialOf(int index) const
     {
         glm::dvec3 color(0.5);
@@ -190,7 +207,8 @@ private:
         if (index >= 0 && size_t(index) < model_.materials.size()) {
             const tinygltf::Material& material = model_.materials[size_t(index)];
             const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
-            if (factor.size() == 4) color = glm::dvec3(factor[0], factor[1], factor[2]) * (material.alphaMode == "BLEND" ? factor[3] : 1.0);
+            if (factor.size() == 4)
+                color = glm::dvec3(factor[0], factor[1], factor[2]) * (material.alphaMode == "BLEND" ? factor[3] : 1.0);
             known = findMaterial(material.name);
         }
         for (int k = 0; k < 3; ++k) color[k] = color[k] > 0.0 ? std::min(color[k], 1.0) : 0.0;
@@ -199,22 +217,28 @@ private:
 
     bool elements(int index, int type, int componentType, Elements& result)
     {
-        if (index < 0 || size_t(index) >= model_.accessors.size()) return fail(concat("accessor ", index, " does not exist"));
+        if (index < 0 || size_t(index) >= model_.accessors.size())
+            return fail(concat("accessor ", index, " does not exist"));
         const tinygltf::Accessor& accessor = model_.accessors[size_t(index)];
         if (accessor.sparse.isSparse) return fail(concat("accessor ", index, " is sparse, which is not read"));
-        if (accessor.type != type || accessor.componentType != componentType) return fail(concat("accessor ", index, " has an unexpected type"));
+        if (accessor.type != type || accessor.componentType != componentType)
+            return fail(concat("accessor ", index, " has an unexpected type"));
         if (accessor.bufferView < 0 || size_t(accessor.bufferView) >= model_.bufferViews.size())
             return fail(concat("accessor ", index, " has no buffer view (compressed files are not read)"));
         const tinygltf::BufferView& view = model_.bufferViews[size_t(accessor.bufferView)];
-        if (view.buffer < 0 || size_t(view.buffer) >= model_.buffers.size()) return fail(concat("buffer ", view.buffer, " does not exist"));
+        if (view.buffer < 0 || size_t(view.buffer) >= model_.buffers.size())
+            return fail(concat("buffer ", view.buffer, " does not exist"));
         const std::vector<unsigned char>& bytes = model_.buffers[size_t(view.buffer)].data;
-        const size_t elementSize = size_t(tinygltf::GetComponentSizeInBytes(u32(componentType))) * size_t(tinygltf::GetNumComponentsInType(u32(type)));
+        const size_t elementSize = size_t(tinygltf::GetComponentSizeInBytes(u32(componentType))) *
+                                   size_t(tinygltf::GetNumComponentsInType(u32(type)));
         result.stride = view.byteStride != 0 ? view.byteStride : elementSize;
         result.count = accessor.count;
         // Every term is bounded by the buffer's size before it is used in a sum or product.
-        const bool fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset && accessor.byteOffset <= view.byteLength &&
-                          result.stride >= elementSize && result.stride <= 252 + elementSize && result.count <= bytes.size() &&
-                          (result.count == 0 || (result.count - 1) * result.stride + elementSize <= view.byteLength - accessor.byteOffset);
+        const bool fits = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset &&
+                          accessor.byteOffset <= view.byteLength && result.stride >= elementSize &&
+                          result.stride <= 252 + elementSize && result.count <= bytes.size() &&
+                          (result.count == 0 ||
+                           (result.count - 1) * result.stride + elementSize <= view.byteLength - accessor.byteOffset);
         if (!fits) return fail(concat("accessor ", index, " reaches past the end of its buffer"));
         result.data = bytes.data() + view.byteOffset + accessor.byteOffset;
         return true;
@@ -227,7 +251,10 @@ private:
 };
 
 /// Pictures are not used, so none is decoded.
-bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; }
+bool skipImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
+{
+    return true;
+}
 
 /// Parses the container. The library may throw on malformed JSON.
 bool parse(std::span<const std::byte> bytes, tinygltf::Model& model, std::string& message)
@@ -236,7 +263,9 @@ bool parse(std::span<const std::byte> bytes, tinygltf::Model& model, std::string
         tinygltf::TinyGLTF loader;
         loader.SetImageLoader(skipImage, nullptr);
         std::string warning;
-        if (loader.LoadBinaryFromMemory(&model, &message, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), u32(bytes.size()), "")) return true;
+        if (loader.LoadBinaryFromMemory(&model, &message, &warning,
+                                        reinterpret_cast<const unsigned char*>(bytes.data()), u32(bytes.size()), ""))
+            return true;
     } catch (const std::exception& exception) {
         message = exception.what();
     }
@@ -258,7 +287,9 @@ Result<AssetMesh> loadAsset(const std::filesystem::path& file, const std::string
 
 Result<AssetMesh> parseAsset(std::span<const std::byte> glb, const std::string& file, const std::string& nameInRule)
 {
-    const auto bad = [&](const std::string& message) { return Error{concat(file, ": cannot be used as an asset: ", message)}; };
+    const auto bad = [&](const std::string& message) {
+        return Error{concat(file, ": cannot be used as an asset: ", message)};
+    };
     if (glb.size() < 20 || std::memcmp(glb.data(), "glTF", 4) != 0) return bad("it is not a binary glTF file (.glb)");
     if (glb.size() > (1u << 30)) return bad("it is larger than 1 GiB");
     tinygltf::Model model;
@@ -279,7 +310,8 @@ Result<AssetMesh> parseAsset(std::span<const std::byte> glb, const std::string& 
     return mesh;
 }
 
-Result<std::filesystem::path> findAsset(const std::string& nameInRule, const std::vector<std::filesystem::path>& folders)
+Result<std::filesystem::path> findAsset(const std::string& nameInRule,
+                                        const std::vector<std::filesystem::path>& folders)
 {
     const std::filesystem::path name(nameInRule);
     std::string looked;
@@ -292,7 +324,8 @@ Result<std::filesystem::path> findAsset(const std::string& nameInRule, const std
         if (std::filesystem::is_regular_file(folder / name, error)) return folder / name;
         looked += concat(looked.empty() ? "" : ", ", (folder / name).string());
     }
-    return Error{concat("the asset '", nameInRule, "' was not found; looked for ", looked.empty() ? "it nowhere (no asset folder is set)" : looked)};
+    return Error{concat("the asset '", nameInRule, "' was not found; looked for ",
+                        looked.empty() ? "it nowhere (no asset folder is set)" : looked)};
 }
 
 } // namespace helio

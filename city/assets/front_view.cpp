@@ -11,13 +11,17 @@ namespace {
 
 constexpr int kGrid = 128;
 
-double cross2(const glm::dvec3& a, const glm::dvec3& b, double x, double y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
+double cross2(const glm::dvec3& a, const glm::dvec3& b, double x, double y)
+{
+    return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
 
 } // namespace
 
 glm::dvec4 frontViewReflectance(const AssetMesh& mesh, std::span<const glm::dvec4> triangleRho)
 {
-    HELIO_CHECK(triangleRho.size() * 3 == mesh.indices.size(), triangleRho.size(), " entries for ", mesh.indices.size(), " indices");
+    HELIO_CHECK(triangleRho.size() * 3 == mesh.indices.size(), triangleRho.size(), " entries for ", mesh.indices.size(),
+                " indices");
     const glm::dvec3 cell = (mesh.boxMax - mesh.boxMin) / double(kGrid);
     std::vector<double> depth(size_t(kGrid) * kGrid, -INFINITY);
     std::vector<u32> seen(depth.size(), kNoIndex);
@@ -32,7 +36,8 @@ glm::dvec4 frontViewReflectance(const AssetMesh& mesh, std::span<const glm::dvec
         const double twice = cross2(v[0], v[1], v[2].x, v[2].y);
         if (!(twice > 0.0) || !(cell.x > 0.0) || !(cell.y > 0.0)) continue;
         const auto range = [](double low, double high, double step) {
-            return std::pair(std::clamp(int(std::ceil(low / step - 0.5)), 0, kGrid), std::clamp(int(std::floor(high / step - 0.5)) + 1, 0, kGrid));
+            return std::pair(std::clamp(int(std::ceil(low / step - 0.5)), 0, kGrid),
+                             std::clamp(int(std::floor(high / step - 0.5)) + 1, 0, kGrid));
         };
         const auto [x0, x1] = range(std::min({v[0].x, v[1].x, v[2].x}), std::max({v[0].x, v[1].x, v[2].x}), cell.x);
         const auto [y0, y1] = range(std::min({v[0].y, v[1].y, v[2].y}), std::max({v[0].y, v[1].y, v[2].y}), cell.y);

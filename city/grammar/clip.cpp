@@ -41,8 +41,8 @@ struct Segment
 /// A run of a ring on the kept side: from where it enters across the plane to where it leaves.
 using Chain = Ring3;
 
-/// The point where an edge crosses the plane. The edge is taken in one fixed order, so that both sides of a cut, and both
-/// faces at an edge of a solid, get the same bits.
+/// The point where an edge crosses the plane. The edge is taken in one fixed order, so that both sides of a cut, and
+/// both faces at an edge of a solid, get the same bits.
 glm::dvec3 crossing(const HalfSpace& plane, glm::dvec3 a, glm::dvec3 b)
 {
     if (plane.distance(a) == 0.0) std::swap(a, b);
@@ -56,7 +56,8 @@ glm::dvec3 crossing(const HalfSpace& plane, glm::dvec3 a, glm::dvec3 b)
     return p;
 }
 
-void appendChains(const HalfSpace& plane, const Ring3& ring, const std::vector<double>& distances, std::vector<Chain>& chains)
+void appendChains(const HalfSpace& plane, const Ring3& ring, const std::vector<double>& distances,
+                  std::vector<Chain>& chains)
 {
     const size_t n = ring.size();
     for (size_t first = 0; first < n; ++first) {
@@ -78,12 +79,14 @@ bool contains(const Ring3& ring, const glm::dvec3& p, const glm::dvec3& normal)
     bool inside = false;
     for (size_t k = 0, j = ring.size() - 1; k < ring.size(); j = k++) {
         const glm::dvec3 &a = ring[k], &b = ring[j];
-        if ((a[v] > p[v]) != (b[v] > p[v]) && p[u] < (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v]) + a[u]) inside = !inside;
+        if ((a[v] > p[v]) != (b[v] > p[v]) && p[u] < (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v]) + a[u])
+            inside = !inside;
     }
     return inside;
 }
 
-/// Sorts loops into polygons: counter-clockwise ones about the normal are outlines, the others holes of the outline around them.
+/// Sorts loops into polygons: counter-clockwise ones about the normal are outlines, the others holes of the outline
+/// around them.
 std::vector<Polygon3> assemble(std::vector<Ring3> loops, const glm::dvec3& normal)
 {
     std::vector<Polygon3> polygons;
@@ -91,13 +94,16 @@ std::vector<Polygon3> assemble(std::vector<Ring3> loops, const glm::dvec3& norma
     for (Ring3& loop : loops) {
         const double signedArea = glm::dot(vectorArea(loop), normal);
         if (std::abs(signedArea) < kMinArea) continue;
-        if (signedArea < 0.0) holes.push_back(std::move(loop));
-        else polygons.push_back({std::move(loop), {}});
+        if (signedArea < 0.0)
+            holes.push_back(std::move(loop));
+        else
+            polygons.push_back({std::move(loop), {}});
     }
     for (Ring3& hole : holes)
         for (Polygon3& polygon : polygons) {
             // A corner of the hole may touch the outline, so the majority of its corners decides.
-            const auto inside = std::count_if(hole.begin(), hole.end(), [&](const glm::dvec3& p) { return contains(polygon.outer, p, normal); });
+            const auto inside = std::count_if(hole.begin(), hole.end(),
+                                              [&](const glm::dvec3& p) { return contains(polygon.outer, p, normal); });
             if (polygons.size() > 1 && size_t(inside) * 2 <= hole.size()) continue;
             polygon.holes.push_back(std::move(hole));
             break;
@@ -124,22 +130,28 @@ std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygo
         distances.clear();
         for (const glm::dvec3& p : ring) distances.push_back(plane.distance(p));
         const auto kept = std::count_if(distances.begin(), distances.end(), [](double d) { return d > 0.0; });
-        if (size_t(kept) == ring.size()) loops.push_back(ring);
-        else if (kept > 0) appendChains(plane, ring, distances, chains);
+        if (size_t(kept) == ring.size())
+            loops.push_back(ring);
+        else if (kept > 0)
+            appendChains(plane, ring, distances, chains);
     };
     addRing(polygon.outer);
     for (const Ring3& hole : polygon.holes) addRing(hole);
     if (chains.empty() && loops.empty()) return {};
     if (chains.empty() && loops.size() == 1 + polygon.holes.size()) return {polygon};
 
-    // Walking on from a chain's end, the cut runs along `along` (kept part to the left) to the next chain's start. Ends and starts
-    // alternate on it, so that the k-th end joins the k-th start, whatever their order at equal places.
+    // Walking on from a chain's end, the cut runs along `along` (kept part to the left) to the next chain's start. Ends
+    // and starts alternate on it, so that the k-th end joins the k-th start, whatever their order at equal places.
     const glm::dvec3 normal = unitNormal(polygon), along = glm::cross(plane.inward(), normal);
     std::vector<size_t> byEnd(chains.size()), byStart(chains.size()), nextOf(chains.size());
     std::iota(byEnd.begin(), byEnd.end(), size_t(0));
     byStart = byEnd;
-    std::sort(byEnd.begin(), byEnd.end(), [&](size_t a, size_t b) { return std::pair(glm::dot(chains[a].back(), along), a) < std::pair(glm::dot(chains[b].back(), along), b); });
-    std::sort(byStart.begin(), byStart.end(), [&](size_t a, size_t b) { return std::pair(glm::dot(chains[a].front(), along), a) < std::pair(glm::dot(chains[b].front(), along), b); });
+    std::sort(byEnd.begin(), byEnd.end(), [&](size_t a, size_t b) {
+        return std::pair(glm::dot(chains[a].back(), along), a) < std::pair(glm::dot(chains[b].back(), along), b);
+    });
+    std::sort(byStart.begin(), byStart.end(), [&](size_t a, size_t b) {
+        return std::pair(glm::dot(chains[a].front(), along), a) < std::pair(glm::dot(chains[b].front(), along), b);
+    });
     for (size_t k = 0; k < chains.size(); ++k) {
         nextOf[byEnd[k]] = byStart[k];
         const Segment seam{chains[byStart[k]].front(), chains[byEnd[k]].back()};
@@ -158,7 +170,8 @@ std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygo
     return assemble(std::move(loops), normal);
 }
 
-/// Joins seams end to start into loops. The nearest start continues a loop; one that finds none within a millimetre is dropped.
+/// Joins seams end to start into loops. The nearest start continues a loop; one that finds none within a millimetre is
+/// dropped.
 std::vector<Ring3> joinSeams(const std::vector<Segment>& seams)
 {
     std::vector<Ring3> loops;

@@ -19,7 +19,8 @@ int quadrant(const glm::dvec3& n)
     const std::array<double, 6> components = {n.z, n.x, -n.z, -n.x, n.y, -n.y};
     const double largest = *std::max_element(components.begin(), components.end());
     // Rounding of rotated scopes must not decide a tie.
-    const auto first = std::find_if(components.begin(), components.end(), [&](double c) { return c >= largest - 1e-9; });
+    const auto first =
+        std::find_if(components.begin(), components.end(), [&](double c) { return c >= largest - 1e-9; });
     return int(first - components.begin());
 }
 
@@ -33,35 +34,48 @@ bool selects(Selector selector, const glm::dvec3& normal)
     case Selector::Front:
     case Selector::ObjectFront:
     case Selector::StreetFront:
-    case Selector::WorldSouth: return quadrant(normal) == 0;
+    case Selector::WorldSouth:
+        return quadrant(normal) == 0;
     case Selector::Right:
     case Selector::ObjectRight:
     case Selector::StreetRight:
-    case Selector::WorldEast: return quadrant(normal) == 1;
+    case Selector::WorldEast:
+        return quadrant(normal) == 1;
     case Selector::Back:
     case Selector::ObjectBack:
     case Selector::StreetBack:
-    case Selector::WorldNorth: return quadrant(normal) == 2;
+    case Selector::WorldNorth:
+        return quadrant(normal) == 2;
     case Selector::Left:
     case Selector::ObjectLeft:
     case Selector::StreetLeft:
-    case Selector::WorldWest: return quadrant(normal) == 3;
+    case Selector::WorldWest:
+        return quadrant(normal) == 3;
     case Selector::Top:
     case Selector::ObjectTop:
-    case Selector::WorldUp: return quadrant(normal) == 4;
+    case Selector::WorldUp:
+        return quadrant(normal) == 4;
     case Selector::Bottom:
     case Selector::ObjectBottom:
-    case Selector::WorldDown: return quadrant(normal) == 5;
+    case Selector::WorldDown:
+        return quadrant(normal) == 5;
     case Selector::Side:
     case Selector::ObjectSide:
     case Selector::StreetSide:
-    case Selector::WorldSide: return !horizontal;
-    case Selector::Vertical: return std::abs(slope) <= 11.25;
-    case Selector::Horizontal: return horizontal;
-    case Selector::Aslant: return slope > 11.25 && slope <= 78.75;
-    case Selector::Nutant: return slope < -11.25 && slope >= -78.75;
-    case Selector::All: return true;
-    case Selector::Index: break;
+    case Selector::WorldSide:
+        return !horizontal;
+    case Selector::Vertical:
+        return std::abs(slope) <= 11.25;
+    case Selector::Horizontal:
+        return horizontal;
+    case Selector::Aslant:
+        return slope > 11.25 && slope <= 78.75;
+    case Selector::Nutant:
+        return slope < -11.25 && slope >= -78.75;
+    case Selector::All:
+        return true;
+    case Selector::Index:
+        break;
     }
     HELIO_CHECK(false, "selector ", int(selector), " has no direction");
 }
@@ -73,7 +87,10 @@ SelectorFrame frameOf(Selector selector)
     return isStreet(selector) ? SelectorFrame::Object : SelectorFrame::Scope;
 }
 
-bool isStreet(Selector selector) { return selector >= Selector::StreetFront && selector <= Selector::StreetSide; }
+bool isStreet(Selector selector)
+{
+    return selector >= Selector::StreetFront && selector <= Selector::StreetSide;
+}
 
 std::pair<Scope, Geometry> faceShape(const Scope& parent, const Face& face)
 {

@@ -64,7 +64,8 @@ public:
         for (Surface& surface : part.surfaces) surfaces.push_back(surfaceNumber(std::move(surface)));
         for (const std::string& asset : part.assets) assets.push_back(number(asset, assetNumbers_, tree_.assets));
         for (Shape& shape : part.shapes) {
-            const std::string& name = shape.name < program_.names.size() ? program_.names[shape.name] : operationName(shape.name);
+            const std::string& name =
+                shape.name < program_.names.size() ? program_.names[shape.name] : operationName(shape.name);
             shape.name = number(name, nameNumbers_, tree_.names);
             shape.building = building;
             if (shape.parent != kNoIndex) shape.parent += shapeBase;
@@ -95,7 +96,8 @@ private:
 
     u32 surfaceNumber(Surface&& surface)
     {
-        const auto key = std::tuple(surface.name, surface.rho.r, surface.rho.g, surface.rho.b, surface.rho.a, surface.emission.r, surface.emission.g, surface.emission.b);
+        const auto key = std::tuple(surface.name, surface.rho.r, surface.rho.g, surface.rho.b, surface.rho.a,
+                                    surface.emission.r, surface.emission.g, surface.emission.b);
         const auto [it, added] = surfaceNumbers_.emplace(key, u32(tree_.surfaces.size()));
         if (added) tree_.surfaces.push_back(std::move(surface));
         return it->second;
@@ -120,8 +122,10 @@ Result<Derivation> derive(const RuleSet& rules, std::span<const Footprint> footp
     }
     for (const Footprint& footprint : footprints)
         if (startRuleOf(program, footprint) == kNoIndex)
-            return Error{footprint.rule.empty() ? concat(program.fileName, ": no start rule: name one Lot, or mark one with @StartRule")
-                                                : concat(program.fileName, ": building '", footprint.id, "': the start rule '", footprint.rule, "' is not declared, or it takes parameters")};
+            return Error{footprint.rule.empty()
+                             ? concat(program.fileName, ": no start rule: name one Lot, or mark one with @StartRule")
+                             : concat(program.fileName, ": building '", footprint.id, "': the start rule '",
+                                      footprint.rule, "' is not declared, or it takes parameters")};
 
     SharedBoxes boxes(options);
     std::vector<BuildingResult> results(footprints.size());

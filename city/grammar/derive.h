@@ -40,9 +40,9 @@ struct Derivation
 };
 
 /// Derives all footprints. Building i is footprint i; a footprint without any leaf has only its root.
-/// Errors (`file:line:column: building 'id': ...`, that of the first building that has one): a value of the wrong type, a size
-/// that is not finite, a repeat without extent, a missing asset, and the limits of limits.h.
-/// Same bytes for any number of jobs. Every random draw hangs on seed, building id, path in the tree and rule name.
+/// Errors (`file:line:column: building 'id': ...`, that of the first building that has one): a value of the wrong type,
+/// a size that is not finite, a repeat without extent, a missing asset, and the limits of limits.h. Same bytes for any
+/// number of jobs. Every random draw hangs on seed, building id, path in the tree and rule name.
 Result<Derivation> derive(const RuleSet& rules, std::span<const Footprint> footprints, const DeriveOptions& options);
 
 } // namespace helio

@@ -29,7 +29,8 @@ glm::dvec3 turnsOf(const glm::dmat3& r)
 
 } // namespace
 
-Evaluator::Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options, u64 seed, Trouble& trouble)
+Evaluator::Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options, u64 seed,
+                     Trouble& trouble)
     : program_(program), footprint_(footprint), options_(options), seed_(seed), trouble_(trouble),
       progress_(program.globals.size(), Progress::None), values_(program.globals.size())
 {
@@ -72,22 +73,35 @@ Value Evaluator::evaluate(const Expr& expr, const Env& env)
     if (trouble_.failed()) return 0.0;
     Nest nest(depth_);
     trouble_.spend(expr.place, 1);
-    if (depth_ > kMaxEvaluations) trouble_.fail(expr.place, "functions call each other too deeply: look for a recursion without end");
+    if (depth_ > kMaxEvaluations)
+        trouble_.fail(expr.place, "functions call each other too deeply: look for a recursion without end");
     if (trouble_.failed()) return 0.0;
     switch (expr.kind) {
-    case ExprKind::Number: return expr.number;
-    case ExprKind::Text: return expr.text;
-    case ExprKind::Bool: return expr.number != 0.0;
-    case ExprKind::Parameter: return env.parameters[expr.index];
-    case ExprKind::Global: return evaluateGlobal(expr, env);
-    case ExprKind::Builtin: return callBuiltin(expr, env);
-    case ExprKind::Shape: return evaluateShape(ShapeAttribute(expr.index), env);
-    case ExprKind::Negate: return -number(expr.args[0], env);
-    case ExprKind::Not: return !truth(expr.args[0], env);
-    case ExprKind::Binary: return evaluateBinary(expr, env);
+    case ExprKind::Number:
+        return expr.number;
+    case ExprKind::Text:
+        return expr.text;
+    case ExprKind::Bool:
+        return expr.number != 0.0;
+    case ExprKind::Parameter:
+        return env.parameters[expr.index];
+    case ExprKind::Global:
+        return evaluateGlobal(expr, env);
+    case ExprKind::Builtin:
+        return callBuiltin(expr, env);
+    case ExprKind::Shape:
+        return evaluateShape(ShapeAttribute(expr.index), env);
+    case ExprKind::Negate:
+        return -number(expr.args[0], env);
+    case ExprKind::Not:
+        return !truth(expr.args[0], env);
+    case ExprKind::Binary:
+        return evaluateBinary(expr, env);
     case ExprKind::Cases:
-    case ExprKind::Percent: return evaluateChoice(expr, env);
-    case ExprKind::Keyword: break;
+    case ExprKind::Percent:
+        return evaluateChoice(expr, env);
+    case ExprKind::Keyword:
+        break;
     }
     HELIO_CHECK(false, "unresolved name ", expr.text);
 }
@@ -113,11 +127,13 @@ size_t Evaluator::draw(std::span<const Expr* const> percentages, const Env& env)
     size_t chosen = percentages.size();
     for (size_t k = 0; k < percentages.size(); ++k) {
         const double percentage = number(*percentages[k], env);
-        if (!(percentage >= 0.0)) trouble_.fail(percentages[k]->place, concat("a percentage must not be negative: ", percentage));
+        if (!(percentage >= 0.0))
+            trouble_.fail(percentages[k]->place, concat("a percentage must not be negative: ", percentage));
         sum += percentage;
         if (chosen == percentages.size() && u < sum) chosen = k;
     }
-    if (sum > 100.0 + 1e-6) trouble_.fail(percentages[0]->place, concat("the percentages add up to ", sum, ", more than 100"));
+    if (sum > 100.0 + 1e-6)
+        trouble_.fail(percentages[0]->place, concat("the percentages add up to ", sum, ", more than 100"));
     return chosen;
 }
 
@@ -134,7 +150,9 @@ Value Evaluator::evaluateGlobal(const Expr& expr, const Env& env)
     std::vector<Value> arguments;
     for (const Expr& arg : expr.args) arguments.push_back(evaluate(arg, env));
     Nest nest(calls_);
-    if (calls_ > kMaxDepth) trouble_.fail(expr.place, concat("functions call each other deeper than ", kMaxDepth, " levels: look for a recursion without end in '", global.name, "'"));
+    if (calls_ > kMaxDepth)
+        trouble_.fail(expr.place, concat("functions call each other deeper than ", kMaxDepth,
+                                         " levels: look for a recursion without end in '", global.name, "'"));
     return evaluate(global.value, {env.shape, arguments, env.random});
 }
 
@@ -162,9 +180,12 @@ Value Evaluator::attributeValue(const Global& global, Value value)
     const Value height = footprint_.height;
     const auto option = options_.attributes.find(global.name);
     const auto property = footprint_.attributes.find(global.name);
-    if (option != options_.attributes.end()) given = &option->second;
-    else if (global.name == "height" && footprint_.height > 0.0) given = &height;
-    else if (property != footprint_.attributes.end()) given = &property->second;
+    if (option != options_.attributes.end())
+        given = &option->second;
+    else if (global.name == "height" && footprint_.height > 0.0)
+        given = &height;
+    else if (property != footprint_.attributes.end())
+        given = &property->second;
     if (!given) return value;
     if (given->index() == value.index()) return *given;
     if (std::holds_alternative<std::string>(value)) return toText(*given);
@@ -172,8 +193,10 @@ Value Evaluator::attributeValue(const Global& global, Value value)
         if (std::holds_alternative<bool>(value) && (*text == "true" || *text == "false")) return *text == "true";
         if (const auto number = toNumber(*text); number && std::holds_alternative<double>(value)) return *number;
     }
-    if (const double* number = std::get_if<double>(given); number && std::holds_alternative<bool>(value)) return *number != 0.0;
-    trouble_.warn(global.place, concat("attribute '", global.name, "' is ", kindOf(value), "; values of features that are ", kindOf(*given), " are not used"));
+    if (const double* number = std::get_if<double>(given); number && std::holds_alternative<bool>(value))
+        return *number != 0.0;
+    trouble_.warn(global.place, concat("attribute '", global.name, "' is ", kindOf(value),
+                                       "; values of features that are ", kindOf(*given), " are not used"));
     return value;
 }
 
@@ -187,29 +210,42 @@ Value Evaluator::evaluateBinary(const Expr& expr, const Env& env)
     const bool texts = std::holds_alternative<std::string>(a) || std::holds_alternative<std::string>(b);
     if (op == BinaryOp::Add && texts) {
         std::string joined = toText(a) + toText(b);
-        if (joined.size() > kMaxTextBytes) trouble_.fail(expr.place, concat("text longer than ", kMaxTextBytes, " bytes"));
+        if (joined.size() > kMaxTextBytes)
+            trouble_.fail(expr.place, concat("text longer than ", kMaxTextBytes, " bytes"));
         return joined;
     }
     if (op == BinaryOp::Equal || op == BinaryOp::NotEqual) {
-        if (a.index() != b.index()) trouble_.fail(expr.place, concat("cannot compare ", kindOf(a), " with ", kindOf(b)));
+        if (a.index() != b.index())
+            trouble_.fail(expr.place, concat("cannot compare ", kindOf(a), " with ", kindOf(b)));
         return (a == b) == (op == BinaryOp::Equal);
     }
     const double *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
     if (!x || !y) {
-        trouble_.fail(expr.place, concat("this needs numbers on both sides, but they are ", kindOf(a), " and ", kindOf(b)));
+        trouble_.fail(expr.place,
+                      concat("this needs numbers on both sides, but they are ", kindOf(a), " and ", kindOf(b)));
         return 0.0;
     }
     switch (op) {
-    case BinaryOp::Less: return *x < *y;
-    case BinaryOp::Greater: return *x > *y;
-    case BinaryOp::LessEqual: return *x <= *y;
-    case BinaryOp::GreaterEqual: return *x >= *y;
-    case BinaryOp::Add: return finite(*x + *y, expr, "the sum");
-    case BinaryOp::Subtract: return finite(*x - *y, expr, "the difference");
-    case BinaryOp::Multiply: return finite(*x * *y, expr, "the product");
-    case BinaryOp::Divide: return finite(*x / *y, expr, concat("the division by ", *y));
-    case BinaryOp::Modulo: return finite(std::fmod(*x, *y), expr, concat("the remainder by ", *y));
-    default: break;
+    case BinaryOp::Less:
+        return *x < *y;
+    case BinaryOp::Greater:
+        return *x > *y;
+    case BinaryOp::LessEqual:
+        return *x <= *y;
+    case BinaryOp::GreaterEqual:
+        return *x >= *y;
+    case BinaryOp::Add:
+        return finite(*x + *y, expr, "the sum");
+    case BinaryOp::Subtract:
+        return finite(*x - *y, expr, "the difference");
+    case BinaryOp::Multiply:
+        return finite(*x * *y, expr, "the product");
+    case BinaryOp::Divide:
+        return finite(*x / *y, expr, concat("the division by ", *y));
+    case BinaryOp::Modulo:
+        return finite(std::fmod(*x, *y), expr, concat("the remainder by ", *y));
+    default:
+        break;
     }
     HELIO_CHECK(false, "operator ", expr.index);
 }
@@ -223,29 +259,44 @@ Value Evaluator::evaluateShape(ShapeAttribute attribute, const Env& env) const
     switch (attribute) {
     case ShapeAttribute::ScopeSx:
     case ShapeAttribute::ScopeSy:
-    case ShapeAttribute::ScopeSz: return scope.size[index(ShapeAttribute::ScopeSx)];
+    case ShapeAttribute::ScopeSz:
+        return scope.size[index(ShapeAttribute::ScopeSx)];
     case ShapeAttribute::ScopeTx:
     case ShapeAttribute::ScopeTy:
-    case ShapeAttribute::ScopeTz: return (fromPivot * (scope.origin - shape.pivot))[index(ShapeAttribute::ScopeTx)];
+    case ShapeAttribute::ScopeTz:
+        return (fromPivot * (scope.origin - shape.pivot))[index(ShapeAttribute::ScopeTx)];
     case ShapeAttribute::ScopeRx:
     case ShapeAttribute::ScopeRy:
-    case ShapeAttribute::ScopeRz: return turnsOf(fromPivot * scope.axes)[index(ShapeAttribute::ScopeRx)];
-    case ShapeAttribute::ScopeElevation: return scope.origin.y;
-    case ShapeAttribute::SplitIndex: return shape.splitIndex;
-    case ShapeAttribute::SplitTotal: return shape.splitTotal;
-    case ShapeAttribute::CompIndex: return shape.compIndex;
-    case ShapeAttribute::CompTotal: return shape.compTotal;
-    case ShapeAttribute::CompSel: return std::string(shape.compSelector);
-    case ShapeAttribute::Seedian: return shape.seedian.value_or(double(seed_ & 0xFFFFFFFFu));
-    case ShapeAttribute::InitialShapeName: return footprint_.id;
+    case ShapeAttribute::ScopeRz:
+        return turnsOf(fromPivot * scope.axes)[index(ShapeAttribute::ScopeRx)];
+    case ShapeAttribute::ScopeElevation:
+        return scope.origin.y;
+    case ShapeAttribute::SplitIndex:
+        return shape.splitIndex;
+    case ShapeAttribute::SplitTotal:
+        return shape.splitTotal;
+    case ShapeAttribute::CompIndex:
+        return shape.compIndex;
+    case ShapeAttribute::CompTotal:
+        return shape.compTotal;
+    case ShapeAttribute::CompSel:
+        return std::string(shape.compSelector);
+    case ShapeAttribute::Seedian:
+        return shape.seedian.value_or(double(seed_ & 0xFFFFFFFFu));
+    case ShapeAttribute::InitialShapeName:
+        return footprint_.id;
     case ShapeAttribute::ColorR:
     case ShapeAttribute::ColorG:
-    case ShapeAttribute::ColorB: return shape.look.color.value_or(glm::dvec3(1.0))[index(ShapeAttribute::ColorR)];
-    case ShapeAttribute::ColorRgb: return formatColor(shape.look.color.value_or(glm::dvec3(1.0)));
-    case ShapeAttribute::MaterialName: return shape.look.material;
+    case ShapeAttribute::ColorB:
+        return shape.look.color.value_or(glm::dvec3(1.0))[index(ShapeAttribute::ColorR)];
+    case ShapeAttribute::ColorRgb:
+        return formatColor(shape.look.color.value_or(glm::dvec3(1.0)));
+    case ShapeAttribute::MaterialName:
+        return shape.look.material;
     case ShapeAttribute::EmissiveR:
     case ShapeAttribute::EmissiveG:
-    case ShapeAttribute::EmissiveB: return shape.look.emissive[index(ShapeAttribute::EmissiveR)];
+    case ShapeAttribute::EmissiveB:
+        return shape.look.emissive[index(ShapeAttribute::EmissiveR)];
     }
     HELIO_CHECK(false, "shape attribute ", int(attribute));
 }

@@ -10,7 +10,8 @@
 
 namespace helio::cga {
 
-/// What an expression sees: the current shape, the parameters of the rule or function around it, and the shape's random stream.
+/// What an expression sees: the current shape, the parameters of the rule or function around it, and the shape's random
+/// stream.
 struct Env
 {
     const ShapeState* shape = nullptr;
@@ -22,7 +23,8 @@ struct Env
 class Evaluator
 {
 public:
-    Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options, u64 seed, Trouble& trouble);
+    Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options, u64 seed,
+              Trouble& trouble);
 
     /// The shape on which attributes and constants are evaluated. Must be set before the first evaluation.
     void setInitialShape(const ShapeState& shape) { initial_ = shape; }
@@ -54,7 +56,12 @@ private:
     u64 seed_;
     Trouble& trouble_;
     ShapeState initial_;
-    enum class Progress : u8 { None, Running, Done };
+    enum class Progress : u8
+    {
+        None,
+        Running,
+        Done
+    };
     std::vector<Progress> progress_; ///< per global: attributes and constants are evaluated once
     std::vector<Value> values_;
     u32 depth_ = 0, calls_ = 0;

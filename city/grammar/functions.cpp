@@ -18,14 +18,16 @@ Value Evaluator::callBuiltin(const Expr& expr, const Env& env)
 {
     const auto function = Function(expr.index);
     switch (function) {
-    case Function::P: return env.random->uniform() < number(expr.args[0], env);
+    case Function::P:
+        return env.random->uniform() < number(expr.args[0], env);
     case Function::Rand: {
         const double low = expr.args.size() == 2 ? number(expr.args[0], env) : 0.0;
         const double high = expr.args.empty() ? 1.0 : number(expr.args.back(), env);
         return finite(low + (high - low) * env.random->uniform(), expr, "rand");
     }
     case Function::Inside:
-    case Function::Touches: return isCovered(*env.shape);
+    case Function::Touches:
+        return isCovered(*env.shape);
     case Function::Bool:
     case Function::Count:
     case Function::Find:
@@ -33,8 +35,10 @@ Value Evaluator::callBuiltin(const Expr& expr, const Env& env)
     case Function::Len:
     case Function::Rgb:
     case Function::Str:
-    case Function::Substring: return callText(expr, env);
-    default: break;
+    case Function::Substring:
+        return callText(expr, env);
+    default:
+        break;
     }
     return function >= Function::GeometryArea ? callGeometry(expr, env) : callMath(expr, env);
 }
@@ -45,26 +49,46 @@ Value Evaluator::callMath(const Expr& expr, const Env& env)
     for (const Expr& arg : expr.args) v.push_back(number(arg, env));
     if (trouble_.failed()) return 0.0;
     switch (Function(expr.index)) {
-    case Function::Abs: return std::abs(v[0]);
-    case Function::Acos: return finite(std::acos(v[0]) / kRadians, expr, "acos");
-    case Function::Asin: return finite(std::asin(v[0]) / kRadians, expr, "asin");
-    case Function::Atan: return std::atan(v[0]) / kRadians;
-    case Function::Atan2: return std::atan2(v[0], v[1]) / kRadians;
-    case Function::Ceil: return std::ceil(v[0]);
-    case Function::Clamp: return std::min(std::max(v[0], v[1]), v[2]);
-    case Function::Cos: return std::cos(v[0] * kRadians);
-    case Function::Exp: return finite(std::exp(v[0]), expr, "exp");
-    case Function::Floor: return std::floor(v[0]);
-    case Function::Ln: return finite(std::log(v[0]), expr, "ln");
-    case Function::Log10: return finite(std::log10(v[0]), expr, "log10");
-    case Function::Max: return *std::max_element(v.begin(), v.end());
-    case Function::Min: return *std::min_element(v.begin(), v.end());
-    case Function::Pow: return finite(std::pow(v[0], v[1]), expr, "pow");
-    case Function::Rint: return std::nearbyint(v[0]); // halves to the even number
-    case Function::Sin: return std::sin(v[0] * kRadians);
-    case Function::Sqrt: return finite(std::sqrt(v[0]), expr, "sqrt");
-    case Function::Tan: return finite(std::tan(v[0] * kRadians), expr, "tan");
-    default: break;
+    case Function::Abs:
+        return std::abs(v[0]);
+    case Function::Acos:
+        return finite(std::acos(v[0]) / kRadians, expr, "acos");
+    case Function::Asin:
+        return finite(std::asin(v[0]) / kRadians, expr, "asin");
+    case Function::Atan:
+        return std::atan(v[0]) / kRadians;
+    case Function::Atan2:
+        return std::atan2(v[0], v[1]) / kRadians;
+    case Function::Ceil:
+        return std::ceil(v[0]);
+    case Function::Clamp:
+        return std::min(std::max(v[0], v[1]), v[2]);
+    case Function::Cos:
+        return std::cos(v[0] * kRadians);
+    case Function::Exp:
+        return finite(std::exp(v[0]), expr, "exp");
+    case Function::Floor:
+        return std::floor(v[0]);
+    case Function::Ln:
+        return finite(std::log(v[0]), expr, "ln");
+    case Function::Log10:
+        return finite(std::log10(v[0]), expr, "log10");
+    case Function::Max:
+        return *std::max_element(v.begin(), v.end());
+    case Function::Min:
+        return *std::min_element(v.begin(), v.end());
+    case Function::Pow:
+        return finite(std::pow(v[0], v[1]), expr, "pow");
+    case Function::Rint:
+        return std::nearbyint(v[0]); // halves to the even number
+    case Function::Sin:
+        return std::sin(v[0] * kRadians);
+    case Function::Sqrt:
+        return finite(std::sqrt(v[0]), expr, "sqrt");
+    case Function::Tan:
+        return finite(std::tan(v[0] * kRadians), expr, "tan");
+    default:
+        break;
     }
     HELIO_CHECK(false, "function ", expr.index);
 }
@@ -83,11 +107,14 @@ Value Evaluator::callText(const Expr& expr, const Env& env)
         if (const double* number = std::get_if<double>(&value)) return *number;
         if (const bool* truth = std::get_if<bool>(&value)) return *truth ? 1.0 : 0.0;
         const auto number = toNumber(std::get<std::string>(value));
-        if (!number) trouble_.fail(expr.place, concat("float cannot read '", std::get<std::string>(value), "' as a number"));
+        if (!number)
+            trouble_.fail(expr.place, concat("float cannot read '", std::get<std::string>(value), "' as a number"));
         return number.value_or(0.0);
     }
-    case Function::Str: return toText(evaluate(expr.args[0], env));
-    case Function::Len: return double(text(expr.args[0], env).size());
+    case Function::Str:
+        return toText(evaluate(expr.args[0], env));
+    case Function::Len:
+        return double(text(expr.args[0], env).size());
     case Function::Count: {
         const std::string all = text(expr.args[0], env), part = text(expr.args[1], env);
         double count = 0.0;
@@ -105,11 +132,14 @@ Value Evaluator::callText(const Expr& expr, const Env& env)
     case Function::Substring: { // from begin up to end (excluded), both clamped to the text
         const std::string all = text(expr.args[0], env);
         const double size = double(all.size());
-        const double begin = std::clamp(std::floor(number(expr.args[1], env)), 0.0, size), end = std::clamp(std::floor(number(expr.args[2], env)), begin, size);
+        const double begin = std::clamp(std::floor(number(expr.args[1], env)), 0.0, size),
+                     end = std::clamp(std::floor(number(expr.args[2], env)), begin, size);
         return all.substr(size_t(begin), size_t(end - begin));
     }
-    case Function::Rgb: return formatColor({number(expr.args[0], env), number(expr.args[1], env), number(expr.args[2], env)});
-    default: break;
+    case Function::Rgb:
+        return formatColor({number(expr.args[0], env), number(expr.args[1], env), number(expr.args[2], env)});
+    default:
+        break;
     }
     HELIO_CHECK(false, "function ", expr.index);
 }
@@ -124,9 +154,10 @@ Value Evaluator::callGeometry(const Expr& expr, const Env& env)
         if (expr.args.empty()) return area(geometry);
         const auto selector = Selector(expr.args[0].index);
         const SelectorFrame frame = frameOf(selector);
-        const glm::dmat3 turn = frame == SelectorFrame::Scope   ? glm::dmat3(1.0)
-                                : frame == SelectorFrame::World ? shape.scope.axes
-                                                                : glm::transpose(initial_.scope.axes) * shape.scope.axes;
+        const glm::dmat3 turn = frame == SelectorFrame::Scope ? glm::dmat3(1.0)
+                                : frame == SelectorFrame::World
+                                    ? shape.scope.axes
+                                    : glm::transpose(initial_.scope.axes) * shape.scope.axes;
         double sum = 0.0;
         for (const Face& face : geometry.faces)
             if (selects(selector, turn * unitNormal(face.polygon))) sum += area(face.polygon);
@@ -142,21 +173,29 @@ Value Evaluator::callGeometry(const Expr& expr, const Env& env)
             }
         return std::max(0.0, high - low);
     }
-    case Function::GeometryIsConcave: return isConcave(geometry);
-    case Function::GeometryIsPlanar: return isPlanar(geometry);
-    case Function::GeometryIsRectangular: return isRectangular(geometry, expr.args.empty() ? 1.0 : number(expr.args[0], env));
+    case Function::GeometryIsConcave:
+        return isConcave(geometry);
+    case Function::GeometryIsPlanar:
+        return isPlanar(geometry);
+    case Function::GeometryIsRectangular:
+        return isRectangular(geometry, expr.args.empty() ? 1.0 : number(expr.args[0], env));
     case Function::GeometryNEdges: // edges of a closed solid are shared by two faces
         return double(cornerCount(geometry)) / (geometry.closed ? 2.0 : 1.0);
-    case Function::GeometryNFaces: return double(geometry.faces.size());
+    case Function::GeometryNFaces:
+        return double(geometry.faces.size());
     case Function::GeometryNVertices: // Euler's formula for a closed solid without tunnels
-        return geometry.closed ? double(cornerCount(geometry)) / 2.0 + 2.0 - double(geometry.faces.size()) : double(cornerCount(geometry));
-    case Function::GeometryVolume: return volume(geometry);
-    default: break;
+        return geometry.closed ? double(cornerCount(geometry)) / 2.0 + 2.0 - double(geometry.faces.size())
+                               : double(cornerCount(geometry));
+    case Function::GeometryVolume:
+        return volume(geometry);
+    default:
+        break;
     }
     HELIO_CHECK(false, "function ", expr.index);
 }
 
-/// A face counts as covered when a neighbour's wall reaches up to the middle of it, on the footprint's edge that it stands on.
+/// A face counts as covered when a neighbour's wall reaches up to the middle of it, on the footprint's edge that it
+/// stands on.
 bool Evaluator::isCovered(const ShapeState& shape) const
 {
     if (shape.edge >= footprint_.coveredHeight.size()) return false;

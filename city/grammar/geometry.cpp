@@ -31,8 +31,10 @@ Ring3 turningCorners(const Ring3& ring)
 {
     Ring3 corners;
     for (size_t k = 0; k < ring.size(); ++k) {
-        const glm::dvec3 before = ring[k] - ring[(k + ring.size() - 1) % ring.size()], after = ring[(k + 1) % ring.size()] - ring[k];
-        if (glm::length(glm::cross(before, after)) > 0.01 * glm::length(before) * glm::length(after)) corners.push_back(ring[k]);
+        const glm::dvec3 before = ring[k] - ring[(k + ring.size() - 1) % ring.size()],
+                         after = ring[(k + 1) % ring.size()] - ring[k];
+        if (glm::length(glm::cross(before, after)) > 0.01 * glm::length(before) * glm::length(after))
+            corners.push_back(ring[k]);
     }
     return corners;
 }
@@ -92,7 +94,8 @@ bool isConcave(const Geometry& geometry)
         const glm::dvec3 normal = unitNormal(face.polygon);
         const Ring3 ring = turningCorners(face.polygon.outer);
         for (size_t k = 0; k < ring.size(); ++k) {
-            const glm::dvec3 a = ring[(k + 1) % ring.size()] - ring[k], b = ring[(k + 2) % ring.size()] - ring[(k + 1) % ring.size()];
+            const glm::dvec3 a = ring[(k + 1) % ring.size()] - ring[k],
+                             b = ring[(k + 2) % ring.size()] - ring[(k + 1) % ring.size()];
             if (glm::dot(glm::cross(a, b), normal) < 0.0) return true;
         }
     }
@@ -106,7 +109,8 @@ bool isRectangular(const Geometry& geometry, double toleranceDeg)
         const Ring3 ring = turningCorners(face.polygon.outer);
         if (ring.size() != 4 || !face.polygon.holes.empty()) return false;
         for (size_t k = 0; k < 4; ++k) {
-            const glm::dvec3 a = glm::normalize(ring[(k + 1) % 4] - ring[k]), b = glm::normalize(ring[(k + 2) % 4] - ring[(k + 1) % 4]);
+            const glm::dvec3 a = glm::normalize(ring[(k + 1) % 4] - ring[k]),
+                             b = glm::normalize(ring[(k + 2) % 4] - ring[(k + 1) % 4]);
             if (std::abs(glm::dot(a, b)) > limit) return false;
         }
     }
@@ -120,7 +124,8 @@ bool isPlanar(const Geometry& geometry)
     for (const Face& face : geometry.faces)
         if (glm::dot(normal, unitNormal(face.polygon)) < 0.0) return false;
     bool planar = true;
-    forEachCorner(geometry, [&](const glm::dvec3& p) { planar = planar && std::abs(glm::dot(normal, p - origin)) < 1e-6; });
+    forEachCorner(geometry,
+                  [&](const glm::dvec3& p) { planar = planar && std::abs(glm::dot(normal, p - origin)) < 1e-6; });
     return planar;
 }
 

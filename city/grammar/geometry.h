@@ -56,9 +56,9 @@ void fitScope(Scope& scope, Geometry& geometry);
 /// Turns the scope to other axes around its unmoved geometry.
 void turnScope(Scope& scope, Geometry& geometry, const glm::dmat3& axes);
 
-/// Extrudes every face by a vector (scope coordinates, m; not parallel to the faces) into one closed solid: the walls in the order of
-/// the edges (outer ring, then holes), then the tops, then the bottoms. Edges that two faces share get no wall.
-/// `tagEdges`: number the walls by their edge, for a footprint.
+/// Extrudes every face by a vector (scope coordinates, m; not parallel to the faces) into one closed solid: the walls
+/// in the order of the edges (outer ring, then holes), then the tops, then the bottoms. Edges that two faces share get
+/// no wall. `tagEdges`: number the walls by their edge, for a footprint.
 Geometry extrude(const Geometry& base, const glm::dvec3& by, bool tagEdges);
 
 } // namespace helio::cga

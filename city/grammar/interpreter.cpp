@@ -8,7 +8,8 @@ namespace helio::cga {
 
 namespace {
 
-/// The lot: CGA frame (x east, y up, z south), x along the first edge, z out of it. Null for an outline that has no area.
+/// The lot: CGA frame (x east, y up, z south), x along the first edge, z out of it. Null for an outline that has no
+/// area.
 std::optional<std::pair<Scope, Geometry>> lotOf(const Footprint& footprint)
 {
     const Ring2& outer = footprint.outline.outer;
@@ -39,8 +40,10 @@ std::optional<std::pair<Scope, Geometry>> lotOf(const Footprint& footprint)
 
 } // namespace
 
-Interpreter::Interpreter(const Program& program, const Footprint& footprint, const DeriveOptions& options, AssetBoxes& boxes, u64 seed, Trouble& trouble)
-    : program_(program), footprint_(footprint), boxes_(boxes), seed_(seed), trouble_(trouble), evaluator_(program, footprint, options, seed, trouble)
+Interpreter::Interpreter(const Program& program, const Footprint& footprint, const DeriveOptions& options,
+                         AssetBoxes& boxes, u64 seed, Trouble& trouble)
+    : program_(program), footprint_(footprint), boxes_(boxes), seed_(seed), trouble_(trouble),
+      evaluator_(program, footprint, options, seed, trouble)
 {
 }
 
@@ -81,7 +84,9 @@ const Body* Interpreter::choose(const Body& body, const ShapeState& state, Frame
     while (chosen->kind != Body::Kind::Plain && !trouble_.failed()) {
         size_t branch = 0;
         if (chosen->kind == Body::Kind::Cases) {
-            while (branch < chosen->conditions.size() && !evaluator_.truth(chosen->conditions[branch], env(state, frame)) && !trouble_.failed()) ++branch;
+            while (branch < chosen->conditions.size() &&
+                   !evaluator_.truth(chosen->conditions[branch], env(state, frame)) && !trouble_.failed())
+                ++branch;
         } else {
             std::vector<const Expr*> percentages;
             for (const Expr& percentage : chosen->conditions) percentages.push_back(&percentage);
@@ -105,9 +110,12 @@ void Interpreter::runBody(const Body& body, ShapeState& state, Frame& frame)
 void Interpreter::runStatement(const Statement& statement, ShapeState& state, Frame& frame)
 {
     switch (statement.kind) {
-    case StatementKind::Operation: return runOperation(statement, state, frame);
-    case StatementKind::Push: return runPush(statement, state, frame);
-    case StatementKind::Rule: break;
+    case StatementKind::Operation:
+        return runOperation(statement, state, frame);
+    case StatementKind::Push:
+        return runPush(statement, state, frame);
+    case StatementKind::Rule:
+        break;
     }
     std::vector<Value> arguments;
     for (const Size& arg : statement.args) arguments.push_back(evaluator_.evaluate(arg.value, env(state, frame)));
@@ -125,7 +133,8 @@ Interpreter::Frame Interpreter::childFrame(Frame& parent, u32 name, ShapeOp op, 
     frame.random = Random(mixSeed(frame.seed, name < program_.names.size() ? hashText(program_.names[name]) : 0));
     parent.spawned = true;
     if (frame.depth > kMaxDepth)
-        trouble_.fail(place, concat("shapes nest deeper than ", kMaxDepth, " levels: look for a recursion without end, and end it with case / else"));
+        trouble_.fail(place, concat("shapes nest deeper than ", kMaxDepth,
+                                    " levels: look for a recursion without end, and end it with case / else"));
     if (frame.node >= kMaxShapes)
         trouble_.fail(place, concat("the building has more than ", kMaxShapes, " shapes: use larger sizes"));
     Shape shape;
@@ -136,7 +145,8 @@ Interpreter::Frame Interpreter::childFrame(Frame& parent, u32 name, ShapeOp op, 
     return frame;
 }
 
-void Interpreter::spawnRule(const Statement& call, const ShapeState& state, Frame& parent, ShapeOp op, std::span<const Value> arguments)
+void Interpreter::spawnRule(const Statement& call, const ShapeState& state, Frame& parent, ShapeOp op,
+                            std::span<const Value> arguments)
 {
     Frame frame = childFrame(parent, call.name, op, call.place);
     if (trouble_.failed()) return;
@@ -174,7 +184,8 @@ void Interpreter::spawnPart(const Body& body, ShapeState state, Frame& parent, S
 void Interpreter::runPush(const Statement& statement, const ShapeState& state, Frame& frame)
 {
     const bool spawnedBefore = frame.spawned;
-    Frame inner = childFrame(frame, u32(program_.names.size()) + u32(OperationName::Push), ShapeOp::Group, statement.place);
+    Frame inner =
+        childFrame(frame, u32(program_.names.size()) + u32(OperationName::Push), ShapeOp::Group, statement.place);
     if (trouble_.failed()) return;
     inner.parameters = frame.parameters;
     inner.outer = state.scope;
@@ -196,13 +207,16 @@ void Interpreter::finish(Frame& frame, Frame& parent, const ShapeState& start, c
         Covered& covered = frame.covered;
         if (covered.planar > whole + tolerance)
             trouble_.warn(place, concat("'", frame.rule < program_.names.size() ? program_.names[frame.rule] : "split",
-                                        "' puts several surfaces into the same place of a face: their area counts twice. Make all but one of them assets that stand in front"));
+                                        "' puts several surfaces into the same place of a face: their area counts "
+                                        "twice. Make all but one of them assets that stand in front"));
         covered.planar = std::min(covered.planar, whole);
         covered.overlay = std::min(covered.overlay, whole - covered.planar);
         if (covered.overlay < tolerance) covered.overlay = 0.0;
-        if (covered.overlay > 0.0 && result_.shapes.size() > frame.node && result_.shapes[frame.node].op == ShapeOp::Component)
-            trouble_.warn(covered.place, "this asset stands in front of its place, with nothing behind it: the face has a hole there. "
-                                         "Sink it, s('1, '1, d) t(0, 0, -d) i(..), or add a wall beside it");
+        if (covered.overlay > 0.0 && result_.shapes.size() > frame.node &&
+            result_.shapes[frame.node].op == ShapeOp::Component)
+            trouble_.warn(covered.place,
+                          "this asset stands in front of its place, with nothing behind it: the face has a hole there. "
+                          "Sink it, s('1, '1, d) t(0, 0, -d) i(..), or add a wall beside it");
     }
     parent.covered.planar += frame.covered.planar;
     if (frame.covered.overlay <= 0.0) return;

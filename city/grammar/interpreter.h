@@ -27,21 +27,28 @@ struct BuildingShapes
 
 /// Names of nodes that no rule names, numbered after Program::names.
 inline constexpr std::string_view kOperationNames[] = {"split", "comp", "push"};
-enum class OperationName : u32 { Split, Component, Push };
+enum class OperationName : u32
+{
+    Split,
+    Component,
+    Push
+};
 
 /// Area that a subtree put into the plane of the face it stands on, m2.
 struct Covered
 {
-    double planar = 0.0;  ///< of patches
-    double overlay = 0.0; ///< of tiles whose only content is an asset in front of them: a hole unless something else fills it
-    Place place;          ///< of such a tile
+    double planar = 0.0; ///< of patches
+    double overlay =
+        0.0;     ///< of tiles whose only content is an asset in front of them: a hole unless something else fills it
+    Place place; ///< of such a tile
 };
 
 /// Derives one building. Operations are in operations.cpp, subdivisions in subdivide.cpp, leaves in leaf.cpp.
 class Interpreter
 {
 public:
-    Interpreter(const Program& program, const Footprint& footprint, const DeriveOptions& options, AssetBoxes& boxes, u64 seed, Trouble& trouble);
+    Interpreter(const Program& program, const Footprint& footprint, const DeriveOptions& options, AssetBoxes& boxes,
+                u64 seed, Trouble& trouble);
 
     /// Runs the start rule on the footprint.
     BuildingShapes run(u32 startRule);
@@ -70,7 +77,8 @@ private:
     void runBody(const Body& body, ShapeState& state, Frame& frame);
     void runStatement(const Statement& statement, ShapeState& state, Frame& frame);
     Frame childFrame(Frame& parent, u32 name, ShapeOp op, Place place);
-    void spawnRule(const Statement& call, const ShapeState& state, Frame& parent, ShapeOp op, std::span<const Value> arguments);
+    void spawnRule(const Statement& call, const ShapeState& state, Frame& parent, ShapeOp op,
+                   std::span<const Value> arguments);
     void spawnPart(const Body& body, ShapeState state, Frame& parent, ShapeOp op, OperationName name);
     void runPush(const Statement& statement, const ShapeState& state, Frame& frame);
     void finish(Frame& frame, Frame& parent, const ShapeState& start, const ShapeState& end, Place place);
@@ -92,7 +100,8 @@ private:
     // subdivide.cpp
     void split(const Statement& statement, const ShapeState& state, Frame& frame);
     void components(const Statement& statement, const ShapeState& state, Frame& frame);
-    void spawnFaces(const BlockElement& element, const std::vector<const Face*>& faces, const ShapeState& state, Frame& frame);
+    void spawnFaces(const BlockElement& element, const std::vector<const Face*>& faces, const ShapeState& state,
+                    Frame& frame);
     bool refuseAsset(const Statement& statement, const ShapeState& state);
 
     // leaf.cpp

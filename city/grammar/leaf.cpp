@@ -32,7 +32,8 @@ u32 Interpreter::surfaceOf(const Look& look)
     const glm::dvec3 emissive = glm::max(look.emissive, glm::dvec3(0.0));
     surface.emission = glm::dvec4(emissive, solarFromRgb(emissive));
     const auto &r = surface.rho, &e = surface.emission;
-    const auto [it, added] = surfaceIndex_.emplace(std::tuple(surface.name, std::array{r.r, r.g, r.b, r.a, e.r, e.g, e.b, e.a}), u32(result_.surfaces.size()));
+    const auto [it, added] = surfaceIndex_.emplace(
+        std::tuple(surface.name, std::array{r.r, r.g, r.b, r.a, e.r, e.g, e.b, e.a}), u32(result_.surfaces.size()));
     if (added) result_.surfaces.push_back(surface);
     return it->second;
 }
@@ -61,7 +62,8 @@ void Interpreter::addPolygons(const Scope& scope, const Geometry& geometry, Shap
     shape.polygonCount = u32(result_.polygons.size()) - shape.polygonBegin;
 }
 
-/// True if the asset's box lies at or behind the plane of its tile and covers the tile's rectangle, both within a centimetre.
+/// True if the asset's box lies at or behind the plane of its tile and covers the tile's rectangle, both within a
+/// centimetre.
 bool Interpreter::fillsTile(const ShapeState& state) const
 {
     if (!state.tile) return false;
@@ -81,7 +83,9 @@ bool Interpreter::fillsTile(const ShapeState& state) const
     for (int k = 1; k < 3; ++k)
         if (tile.size[k] < tile.size[normal]) normal = k;
     for (int k = 0; k < 3; ++k) {
-        if (k == normal ? high[k] > kFitTolerance : std::abs(low[k]) > kFitTolerance || std::abs(high[k] - tile.size[k]) > kFitTolerance) return false;
+        if (k == normal ? high[k] > kFitTolerance
+                        : std::abs(low[k]) > kFitTolerance || std::abs(high[k] - tile.size[k]) > kFitTolerance)
+            return false;
     }
     return true;
 }

@@ -10,9 +10,18 @@ namespace helio::cga {
 
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isNameStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$'; }
-bool isNamePart(char c) { return isNameStart(c) || isDigit(c); }
+bool isDigit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+bool isNameStart(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$';
+}
+bool isNamePart(char c)
+{
+    return isNameStart(c) || isDigit(c);
+}
 
 /// Walks the text once; `error` is set at the first thing that is no token.
 class Scanner
@@ -23,7 +32,9 @@ public:
     Result<std::vector<Token>> run()
     {
         if (text_.size() > kMaxSourceBytes)
-            return errorAt(fileName_, {}, concat("the file has ", text_.size(), " bytes; rule files are limited to ", kMaxSourceBytes));
+            return errorAt(
+                fileName_, {},
+                concat("the file has ", text_.size(), " bytes; rule files are limited to ", kMaxSourceBytes));
         if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
         std::vector<Token> tokens;
         while (skipSpace()) {
@@ -46,8 +57,10 @@ private:
     {
         for (; count > 0 && at_ < text_.size(); --count) {
             const char c = text_[at_++];
-            if (c == '\n') place_ = {place_.line + 1, 1};
-            else if ((c & 0xC0) != 0x80) ++place_.column; // a UTF-8 character counts as one column
+            if (c == '\n')
+                place_ = {place_.line + 1, 1};
+            else if ((c & 0xC0) != 0x80)
+                ++place_.column; // a UTF-8 character counts as one column
         }
     }
 
@@ -62,7 +75,8 @@ private:
     {
         while (at_ < text_.size()) {
             const char c = peek();
-            if (c == ' ' || c == '\t' || c == '\r' || c == '\n') advance();
+            if (c == ' ' || c == '\t' || c == '\r' || c == '\n')
+                advance();
             else if (c == '#' || (c == '/' && peek(1) == '/')) {
                 while (at_ < text_.size() && peek() != '\n') advance();
             } else if (c == '/' && peek(1) == '*') {
@@ -70,7 +84,8 @@ private:
                 const size_t end = text_.find("*/", at_ + 2);
                 if (end == std::string_view::npos) return fail(start, "this comment is never closed: end it with */");
                 advance(end + 2 - at_);
-            } else return true;
+            } else
+                return true;
         }
         return false;
     }
@@ -102,8 +117,12 @@ private:
         }
         if (std::string_view("+-*/%<>!=~'(){}[]|:,;@").find(c) == std::string_view::npos) {
             const bool printable = c > ' ' && c < 0x7F;
-            return fail(place_, printable ? concat("the character '", c, "' has no meaning in CGA")
-                                          : std::string("this character has no meaning in CGA; outside strings and comments only ASCII is used"));
+            return fail(
+                place_,
+                printable
+                    ? concat("the character '", c, "' has no meaning in CGA")
+                    : std::string(
+                          "this character has no meaning in CGA; outside strings and comments only ASCII is used"));
         }
         token.text = c;
         advance();
@@ -116,17 +135,20 @@ private:
         advance();
         for (;;) {
             const char c = peek();
-            if (at_ >= text_.size() || c == '\n') return fail(token.place, "this string is never closed: end it with \" on the same line");
+            if (at_ >= text_.size() || c == '\n')
+                return fail(token.place, "this string is never closed: end it with \" on the same line");
             if (c == '"') break;
             if (c == '\\') {
                 advance();
                 const char escaped = peek();
                 token.text += escaped == 'n' ? '\n' : escaped == 't' ? '\t' : escaped;
-            } else token.text += c;
+            } else
+                token.text += c;
             advance();
         }
         advance();
-        if (token.text.size() > kMaxTextBytes) return fail(token.place, concat("strings are limited to ", kMaxTextBytes, " bytes"));
+        if (token.text.size() > kMaxTextBytes)
+            return fail(token.place, concat("strings are limited to ", kMaxTextBytes, " bytes"));
         return true;
     }
 
@@ -144,7 +166,8 @@ private:
         }
         token.text = text_.substr(begin, at_ - begin);
         const auto result = std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.number);
-        if (result.ec != std::errc() || !std::isfinite(token.number)) return fail(token.place, concat("the number ", token.text, " is out of range"));
+        if (result.ec != std::errc() || !std::isfinite(token.number))
+            return fail(token.place, concat("the number ", token.text, " is out of range"));
         return true;
     }
 
@@ -161,6 +184,9 @@ Error errorAt(std::string_view fileName, Place place, std::string_view message)
     return {concat(fileName, ":", place.line, ":", place.column, ": ", message)};
 }
 
-Result<std::vector<Token>> tokenize(std::string_view text, std::string_view fileName) { return Scanner(text, fileName).run(); }
+Result<std::vector<Token>> tokenize(std::string_view text, std::string_view fileName)
+{
+    return Scanner(text, fileName).run();
+}
 
 } // namespace helio::cga

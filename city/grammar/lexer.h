@@ -15,14 +15,22 @@ struct Place
     u32 line = 1, column = 1;
 };
 
-enum class TokenKind : u8 { Name, Number, Text, Sign, End };
+enum class TokenKind : u8
+{
+    Name,
+    Number,
+    Text,
+    Sign,
+    End
+};
 
-/// A word of the language. Names may hold dots (`scope.sx`) and end in one (`Wall.`); signs are at most three characters.
+/// A word of the language. Names may hold dots (`scope.sx`) and end in one (`Wall.`); signs are at most three
+/// characters.
 struct Token
 {
     TokenKind kind = TokenKind::End;
     Place place;
-    std::string text;    ///< as written; the unescaped value for Text
+    std::string text; ///< as written; the unescaped value for Text
     double number = 0.0;
 };
 

@@ -16,8 +16,10 @@ constexpr double kFlat = 1e-9; ///< m: a scope no larger than this along an axis
 /// Rotation by degrees about x, then y, then z.
 glm::dmat3 rotation(const glm::dvec3& degrees)
 {
-    const glm::dvec3 a = degrees * (M_PI / 180.0), c(std::cos(a.x), std::cos(a.y), std::cos(a.z)), s(std::sin(a.x), std::sin(a.y), std::sin(a.z));
-    const glm::dmat3 rx(1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x), ry(c.y, 0, -s.y, 0, 1, 0, s.y, 0, c.y), rz(c.z, s.z, 0, -s.z, c.z, 0, 0, 0, 1);
+    const glm::dvec3 a = degrees * (M_PI / 180.0), c(std::cos(a.x), std::cos(a.y), std::cos(a.z)),
+                     s(std::sin(a.x), std::sin(a.y), std::sin(a.z));
+    const glm::dmat3 rx(1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x), ry(c.y, 0, -s.y, 0, 1, 0, s.y, 0, c.y),
+        rz(c.z, s.z, 0, -s.z, c.z, 0, 0, 0, 1);
     return rz * ry * rx;
 }
 
@@ -57,14 +59,20 @@ glm::dvec3 Interpreter::vectorArgs(const Statement& statement, const ShapeState&
 void Interpreter::runOperation(const Statement& statement, ShapeState& state, Frame& frame)
 {
     switch (statement.op) {
-    case Operation::Nil: frame.deleted = true; return;
-    case Operation::Ignored: return;
+    case Operation::Nil:
+        frame.deleted = true;
+        return;
+    case Operation::Ignored:
+        return;
     case Operation::Report: {
         const std::string key = evaluator_.text(statement.args[0].value, env(state, frame));
         const Value value = evaluator_.evaluate(statement.args[1].value, env(state, frame));
-        if (const bool* truth = std::get_if<bool>(&value)) result_.reports[key] += *truth ? 1.0 : 0.0;
-        else if (const double* number = std::get_if<double>(&value)) result_.reports[key] += *number;
-        else trouble_.fail(statement.place, "report sums numbers: its second argument must not be text");
+        if (const bool* truth = std::get_if<bool>(&value))
+            result_.reports[key] += *truth ? 1.0 : 0.0;
+        else if (const double* number = std::get_if<double>(&value))
+            result_.reports[key] += *number;
+        else
+            trouble_.fail(statement.place, "report sums numbers: its second argument must not be text");
         return;
     }
     case Operation::Translate: {
@@ -74,18 +82,29 @@ void Interpreter::runOperation(const Statement& statement, ShapeState& state, Fr
         checkSize(state, statement.place);
         return;
     }
-    case Operation::Resize: return resize(statement, state, frame);
-    case Operation::Rotate: return rotate(statement, state, frame);
-    case Operation::Center: return center(statement, state, frame);
-    case Operation::AlignScopeToAxes: return alignToAxes(statement, state);
-    case Operation::Color: return setColor(statement, state, frame);
-    case Operation::Set: return set(statement, state, frame);
-    case Operation::Extrude: return extrudeShape(statement, state, frame);
+    case Operation::Resize:
+        return resize(statement, state, frame);
+    case Operation::Rotate:
+        return rotate(statement, state, frame);
+    case Operation::Center:
+        return center(statement, state, frame);
+    case Operation::AlignScopeToAxes:
+        return alignToAxes(statement, state);
+    case Operation::Color:
+        return setColor(statement, state, frame);
+    case Operation::Set:
+        return set(statement, state, frame);
+    case Operation::Extrude:
+        return extrudeShape(statement, state, frame);
     case Operation::PrimitiveCube:
-    case Operation::PrimitiveQuad: return primitive(statement, state, frame);
-    case Operation::Insert: return insertAsset(statement, state, frame);
-    case Operation::Split: return split(statement, state, frame);
-    case Operation::Component: return components(statement, state, frame);
+    case Operation::PrimitiveQuad:
+        return primitive(statement, state, frame);
+    case Operation::Insert:
+        return insertAsset(statement, state, frame);
+    case Operation::Split:
+        return split(statement, state, frame);
+    case Operation::Component:
+        return components(statement, state, frame);
     }
 }
 
@@ -95,7 +114,9 @@ void Interpreter::resize(const Statement& statement, ShapeState& state, Frame& f
     if (trouble_.failed()) return;
     glm::dvec3 factor(1.0);
     for (int k = 0; k < 3; ++k) {
-        if (size[k] < 0.0) return trouble_.fail(statement.place, concat("s(..) with the negative size ", size[k], " would mirror the shape, which is not supported"));
+        if (size[k] < 0.0)
+            return trouble_.fail(statement.place, concat("s(..) with the negative size ", size[k],
+                                                         " would mirror the shape, which is not supported"));
         if (state.scope.size[k] > kFlat) factor[k] = size[k] / state.scope.size[k];
     }
     state.scope.size = size;
@@ -122,7 +143,8 @@ void Interpreter::resize(const Statement& statement, ShapeState& state, Frame& f
 void Interpreter::rotate(const Statement& statement, ShapeState& state, Frame& frame)
 {
     glm::dvec3 degrees(0.0);
-    for (int k = 0; k < 3; ++k) degrees[k] = std::fmod(evaluator_.number(statement.args[size_t(k)].value, env(state, frame)), 360.0);
+    for (int k = 0; k < 3; ++k)
+        degrees[k] = std::fmod(evaluator_.number(statement.args[size_t(k)].value, env(state, frame)), 360.0);
     const glm::dmat3 turn = state.pivotAxes * rotation(degrees) * glm::transpose(state.pivotAxes);
     const glm::dvec3 middle = state.scope.toWorld(0.5 * state.scope.size);
     state.scope.axes = turn * state.scope.axes;
@@ -133,7 +155,8 @@ void Interpreter::rotate(const Statement& statement, ShapeState& state, Frame& f
 /// Moves the scope along its own axes so that its centre meets that of the shape it came from.
 void Interpreter::center(const Statement& statement, ShapeState& state, Frame& frame)
 {
-    const glm::dvec3 target = frame.outer.toWorld(0.5 * frame.outer.size), own = state.scope.toWorld(0.5 * state.scope.size);
+    const glm::dvec3 target = frame.outer.toWorld(0.5 * frame.outer.size),
+                     own = state.scope.toWorld(0.5 * state.scope.size);
     glm::dvec3 by = glm::transpose(state.scope.axes) * (target - own);
     for (int k = 0; k < 3; ++k)
         if (!((statement.mode >> k) & 1u)) by[k] = 0.0;
@@ -142,7 +165,8 @@ void Interpreter::center(const Statement& statement, ShapeState& state, Frame& f
     state.intact = false;
 }
 
-/// alignScopeToAxes(): all axes as the world's. alignScopeToAxes(y): y up, x turned as little as possible. Geometry stays.
+/// alignScopeToAxes(): all axes as the world's. alignScopeToAxes(y): y up, x turned as little as possible. Geometry
+/// stays.
 void Interpreter::alignToAxes(const Statement& statement, ShapeState& state)
 {
     if (state.asset) return trouble_.fail(statement.place, "alignScopeToAxes belongs before i(..)");
@@ -168,11 +192,13 @@ void Interpreter::setColor(const Statement& statement, ShapeState& state, Frame&
         state.look.color = glm::clamp(color, 0.0, 1.0);
         return;
     }
-    if (statement.args.size() == 2) return trouble_.fail(statement.place, "color takes \"#rrggbb\" or three numbers from 0 to 1");
+    if (statement.args.size() == 2)
+        return trouble_.fail(statement.place, "color takes \"#rrggbb\" or three numbers from 0 to 1");
     const std::string text = evaluator_.text(statement.args[0].value, env(state, frame));
     if (trouble_.failed()) return;
     state.look.color = parseColor(text);
-    if (!state.look.color) trouble_.fail(statement.place, concat("'", text, "' is no colour: write \"#rrggbb\" with hexadecimal digits"));
+    if (!state.look.color)
+        trouble_.fail(statement.place, concat("'", text, "' is no colour: write \"#rrggbb\" with hexadecimal digits"));
 }
 
 void Interpreter::set(const Statement& statement, ShapeState& state, Frame& frame)
@@ -189,13 +215,17 @@ void Interpreter::set(const Statement& statement, ShapeState& state, Frame& fram
         state.look.color = color;
         return;
     }
-    case SetTarget::ColorRgb: return setColor(statement, state, frame);
-    case SetTarget::Name: state.look.material = evaluator_.text(expr, env(state, frame)); return;
+    case SetTarget::ColorRgb:
+        return setColor(statement, state, frame);
+    case SetTarget::Name:
+        state.look.material = evaluator_.text(expr, env(state, frame));
+        return;
     case SetTarget::EmissiveR:
     case SetTarget::EmissiveG:
     case SetTarget::EmissiveB: {
         const double emissive = number();
-        if (emissive < 0.0) return trouble_.fail(expr.place, concat("an emission must not be negative: ", emissive, " W/m2"));
+        if (emissive < 0.0)
+            return trouble_.fail(expr.place, concat("an emission must not be negative: ", emissive, " W/m2"));
         state.look.emissive[int(target) - int(SetTarget::EmissiveR)] = emissive;
         return;
     }
@@ -206,10 +236,13 @@ void Interpreter::set(const Statement& statement, ShapeState& state, Frame& fram
         frame.random = Random(frame.seed);
         return;
     }
-    case SetTarget::Ignored: return;
-    case SetTarget::FirstGlobal: break;
+    case SetTarget::Ignored:
+        return;
+    case SetTarget::FirstGlobal:
+        break;
     }
-    auto attributes = state.attributes ? std::make_shared<std::map<u32, Value>>(*state.attributes) : std::make_shared<std::map<u32, Value>>();
+    auto attributes = state.attributes ? std::make_shared<std::map<u32, Value>>(*state.attributes)
+                                       : std::make_shared<std::map<u32, Value>>();
     (*attributes)[statement.mode - u32(SetTarget::FirstGlobal)] = evaluator_.evaluate(expr, env(state, frame));
     state.attributes = std::move(attributes);
 }
@@ -219,7 +252,9 @@ void Interpreter::extrudeShape(const Statement& statement, ShapeState& state, Fr
     const double height = evaluator_.number(statement.args[0].value, env(state, frame));
     if (trouble_.failed()) return;
     if (state.asset) return trouble_.fail(statement.place, "extrude belongs before i(..)");
-    if (state.geometry->closed) return trouble_.fail(statement.place, "extrude needs a face, but the shape is a solid: pick one with comp(f) { top : .. }");
+    if (state.geometry->closed)
+        return trouble_.fail(statement.place,
+                             "extrude needs a face, but the shape is a solid: pick one with comp(f) { top : .. }");
     if (state.geometry->faces.empty()) return;
     if (height <= 1e-6) return trouble_.warn(statement.place, "extrude by a height of 0 or less leaves the shape flat");
     trouble_.spend(statement.place, 4 * cornerCount(*state.geometry));
@@ -228,10 +263,15 @@ void Interpreter::extrudeShape(const Statement& statement, ShapeState& state, Fr
     const glm::dvec3 normal = unitNormal(state.geometry->faces[0].polygon);
     const glm::dvec3 up = glm::transpose(state.scope.axes) * glm::dvec3(0, 1, 0);
     const glm::dvec3 direction = mode == ExtrudeMode::FaceNormal ? normal : up;
-    if (!isPlanar(*state.geometry)) return trouble_.fail(statement.place, "extrude of faces in several planes is not supported: use comp(f) { all : extrude(..) }");
-    if (std::abs(glm::dot(direction, normal)) < 1e-3) return trouble_.fail(statement.place, "extrude along world.up needs a face that is not upright: use extrude(face.normal, ..)");
+    if (!isPlanar(*state.geometry))
+        return trouble_.fail(statement.place,
+                             "extrude of faces in several planes is not supported: use comp(f) { all : extrude(..) }");
+    if (std::abs(glm::dot(direction, normal)) < 1e-3)
+        return trouble_.fail(statement.place,
+                             "extrude along world.up needs a face that is not upright: use extrude(face.normal, ..)");
     if (mode == ExtrudeMode::WorldUpFlatTop && std::abs(glm::dot(up, normal)) < 1.0 - 1e-9)
-        return trouble_.fail(statement.place, "extrude(world.up.flatTop, ..) is only supported for level faces: use world.up");
+        return trouble_.fail(statement.place,
+                             "extrude(world.up.flatTop, ..) is only supported for level faces: use world.up");
     Geometry solid = extrude(*state.geometry, direction * height, state.footprint);
 
     // The new y axis runs along the extrusion; x stays as far as it can.
@@ -246,7 +286,8 @@ void Interpreter::extrudeShape(const Statement& statement, ShapeState& state, Fr
     checkSize(state, statement.place);
 }
 
-/// primitiveCube fills the scope with a box, primitiveQuad with a rectangle in the plane of its two largest sides' axes.
+/// primitiveCube fills the scope with a box, primitiveQuad with a rectangle in the plane of its two largest sides'
+/// axes.
 void Interpreter::primitive(const Statement& statement, ShapeState& state, Frame& frame)
 {
     const size_t argCount = statement.args.size();
@@ -256,7 +297,9 @@ void Interpreter::primitive(const Statement& statement, ShapeState& state, Frame
     for (const double size : sizes)
         if (!(size > 0.0)) return trouble_.fail(statement.place, concat("a primitive needs sizes above 0, not ", size));
     const bool cube = statement.op == Operation::PrimitiveCube;
-    if (argCount != 0 && argCount != (cube ? 3u : 2u)) return trouble_.fail(statement.place, cube ? "primitiveCube takes no sizes or three" : "primitiveQuad takes no sizes or two");
+    if (argCount != 0 && argCount != (cube ? 3u : 2u))
+        return trouble_.fail(statement.place,
+                             cube ? "primitiveCube takes no sizes or three" : "primitiveQuad takes no sizes or two");
     glm::dvec3& size = state.scope.size;
     if (cube && argCount == 3) size = {sizes[0], sizes[1], sizes[2]};
     if (!cube && argCount == 2) size = {sizes[0], 0.0, sizes[1]};
@@ -267,7 +310,9 @@ void Interpreter::primitive(const Statement& statement, ShapeState& state, Frame
         geometry = box(size);
     } else {
         const int normal = flat < 0 ? 1 : flat, u = (normal + 1) % 3, v = (normal + 2) % 3;
-        if (size[u] <= kFlat || size[v] <= kFlat) return trouble_.fail(statement.place, "a primitive needs a scope with at least two sizes above 0: set them with s(..)");
+        if (size[u] <= kFlat || size[v] <= kFlat)
+            return trouble_.fail(statement.place,
+                                 "a primitive needs a scope with at least two sizes above 0: set them with s(..)");
         Ring3& ring = geometry.faces.emplace_back().polygon.outer;
         ring.assign(4, glm::dvec3(0.0));
         ring[1][u] = ring[2][u] = size[u];
@@ -280,8 +325,8 @@ void Interpreter::primitive(const Statement& statement, ShapeState& state, Frame
     checkSize(state, statement.place);
 }
 
-/// i("name"): the asset's box is fitted to the scope. Sizes of 0 follow the asset: all three take its own size, two its uniform
-/// scale, one the mean scale of the others.
+/// i("name"): the asset's box is fitted to the scope. Sizes of 0 follow the asset: all three take its own size, two its
+/// uniform scale, one the mean scale of the others.
 void Interpreter::insertAsset(const Statement& statement, ShapeState& state, Frame& frame)
 {
     const std::string name = evaluator_.text(statement.args[0].value, env(state, frame));
@@ -297,7 +342,8 @@ void Interpreter::insertAsset(const Statement& statement, ShapeState& state, Fra
     asset->boxMax = found->max;
     // zUp assets stand on their z axis: turn them so that it becomes y.
     const bool zUp = statement.mode == kWholeScope;
-    const glm::dmat3 turn = zUp ? glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0)) : glm::dmat3(1.0);
+    const glm::dmat3 turn =
+        zUp ? glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0)) : glm::dmat3(1.0);
     const glm::dvec3 a = turn * found->min, b = turn * found->max, low = glm::min(a, b), extent = glm::abs(b - a);
     glm::dvec3& size = state.scope.size;
     double scaleSum = 0.0;

@@ -4,16 +4,17 @@
 #include <algorithm>
 
 #include "city/grammar/limits.h"
+#include "city/grammar/token_cursor.h"
 
 namespace helio::cga {
 
 namespace {
 
-/// Recursive descent. The first error sticks and moves the cursor to the end, so that every loop stops by itself.
-class Parser
+/// Recursive descent over the grammar of README.md.
+class Parser : TokenCursor
 {
 public:
-    Parser(std::vector<Token> tokens, std::string_view fileName) : tokens_(std::move(tokens))
+    Parser(std::vector<Token> tokens, std::string_view fileName) : TokenCursor(std::move(tokens), fileName)
     {
         program_ = std::make_shared<Program>();
         program_->fileName = fileName;
@@ -22,80 +23,13 @@ public:
     Result<std::shared_ptr<Program>> run()
     {
         while (!atEnd()) parseItem();
-        if (failed_) return error_;
-        if (program_->rules.empty()) return errorAt(program_->fileName, {}, "the file declares no rule: write at least  Lot --> ...");
+        if (failed()) return error();
+        if (program_->rules.empty())
+            return errorAt(program_->fileName, {}, "the file declares no rule: write at least  Lot --> ...");
         return program_;
     }
 
 private:
-    // ---- tokens
-    const Token& peek(size_t ahead = 0) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
-    bool atEnd() const { return peek().kind == TokenKind::End; }
-    bool isSign(std::string_view sign, size_t ahead = 0) const { return peek(ahead).kind == TokenKind::Sign && peek(ahead).text == sign; }
-    bool isName(std::string_view name, size_t ahead = 0) const { return peek(ahead).kind == TokenKind::Name && peek(ahead).text == name; }
-    Token take()
-    {
-        Token token = peek();
-        if (!atEnd()) ++at_;
-        return token;
-    }
-    bool takeSign(std::string_view sign)
-    {
-        if (!isSign(sign)) return false;
-        ++at_;
-        return true;
-    }
-    void fail(Place place, std::string_view message)
-    {
-        if (!failed_) error_ = errorAt(program_->fileName, place, message);
-        failed_ = true;
-        at_ = tokens_.size() - 1;
-    }
-    std::string found() const
-    {
-        const Token& token = peek();
-        if (token.kind == TokenKind::End) return "the end of the file";
-        return token.kind == TokenKind::Text ? concat("the string \"", token.text, "\"") : concat("'", token.text, "'");
-    }
-    void need(std::string_view sign, std::string_view where)
-    {
-        if (!takeSign(sign)) fail(peek().place, concat("expected '", sign, "' ", where, ", found ", found()));
-    }
-    Token needName(std::string_view what)
-    {
-        if (peek().kind == TokenKind::Name) return take();
-        fail(peek().place, concat("expected ", what, ", found ", found()));
-        return {};
-    }
-    /// Skips "( ... )" with everything in it.
-    void skipParentheses()
-    {
-        const Place start = peek().place;
-        u32 depth = 0;
-        do {
-            if (atEnd()) return fail(start, "this parenthesis is never closed");
-            depth += isSign("(") ? 1u : 0u;
-            depth -= isSign(")") ? 1u : 0u;
-            take();
-        } while (depth > 0);
-    }
-
-    /// Counts how deep the text nests; false (and an error) when too deep.
-    struct Nest
-    {
-        explicit Nest(Parser& p) : parser(p) { ++parser.nesting_; }
-        ~Nest() { --parser.nesting_; }
-        Nest(const Nest&) = delete;
-        Nest& operator=(const Nest&) = delete;
-        Parser& parser;
-    };
-    bool tooDeep()
-    {
-        if (nesting_ <= kMaxNesting) return false;
-        fail(peek().place, concat("nested deeper than ", kMaxNesting, " levels: move the inner part into a rule or function of its own"));
-        return true;
-    }
-
     // ---- declarations
     void parseItem()
     {
@@ -110,13 +44,16 @@ private:
         } else if (isName("import") && peek(1).kind == TokenKind::Name) {
             fail(first.place, "imports are not supported: copy the rules into one file");
         } else if (isName("style") && peek(1).kind == TokenKind::Name) {
-            fail(first.place, "styles are not supported: make each style a rule file of its own, or choose by an attribute");
+            fail(first.place,
+                 "styles are not supported: make each style a rule file of its own, or choose by an attribute");
         } else if (isName("case") || percentAhead()) {
-            fail(first.place, "a choice (case, or a percentage) must be the whole body of a rule: put it into [ ] or into a rule of its own");
+            fail(first.place, "a choice (case, or a percentage) must be the whole body of a rule: put it into [ ] or "
+                              "into a rule of its own");
         } else if (first.kind == TokenKind::Name) {
             parseDeclaration();
         } else {
-            fail(first.place, concat("expected a declaration such as  Name --> ...  or  attr name = value, found ", found()));
+            fail(first.place,
+                 concat("expected a declaration such as  Name --> ...  or  attr name = value, found ", found()));
         }
     }
 
@@ -125,16 +62,22 @@ private:
         GlobalKind kind = GlobalKind::Function;
         bool isGlobal = false;
         while (peek(1).kind == TokenKind::Name) {
-            if (isName("attr")) kind = GlobalKind::Attribute;
-            else if (isName("const")) kind = GlobalKind::Constant;
-            else if (isName("start")) startNext_ = true;
-            else if (isName("extension")) return fail(peek().place, "'extension' is not supported: leave it out");
-            else break;
+            if (isName("attr"))
+                kind = GlobalKind::Attribute;
+            else if (isName("const"))
+                kind = GlobalKind::Constant;
+            else if (isName("start"))
+                startNext_ = true;
+            else if (isName("extension"))
+                return fail(peek().place, "'extension' is not supported: leave it out");
+            else
+                break;
             isGlobal = isGlobal || !isName("start");
             take();
         }
         const Token name = take();
-        if (name.text.back() == '.') return fail(name.place, concat("'", name.text, "' ends in a dot: terminals are used, not declared"));
+        if (name.text.back() == '.')
+            return fail(name.place, concat("'", name.text, "' ends in a dot: terminals are used, not declared"));
         std::vector<std::string> parameters;
         if (takeSign("(")) {
             while (!atEnd() && !isSign(")")) {
@@ -143,7 +86,8 @@ private:
             }
             need(")", "after the parameters");
         }
-        if (isName("with")) return fail(peek().place, "'with' is not supported: make the value a function or a parameter");
+        if (isName("with"))
+            return fail(peek().place, "'with' is not supported: make the value a function or a parameter");
         const auto key = std::pair(name.text, u32(parameters.size()));
         if (takeSign("-->")) {
             if (isGlobal) return fail(name.place, concat("'", name.text, "' is a rule: leave out attr and const"));
@@ -156,18 +100,21 @@ private:
             if (startNext_ && program_->startRule == kNoIndex) program_->startRule = u32(program_->rules.size());
             startNext_ = false;
             if (!program_->ruleIndex.emplace(key, u32(program_->rules.size())).second)
-                return fail(name.place, concat("rule '", name.text, "' with ", key.second, " parameters is declared twice"));
+                return fail(name.place,
+                            concat("rule '", name.text, "' with ", key.second, " parameters is declared twice"));
             program_->rules.push_back(std::move(rule));
         } else if (takeSign("=")) {
             if (kind != GlobalKind::Function && !parameters.empty())
-                return fail(name.place, concat("'", name.text, "' has parameters, so it is a function: leave out attr and const"));
+                return fail(name.place,
+                            concat("'", name.text, "' has parameters, so it is a function: leave out attr and const"));
             Global global{kind, name.text, name.place, std::move(parameters), parseExpr()};
             startNext_ = false;
             if (!program_->globalIndex.emplace(key, u32(program_->globals.size())).second)
                 return fail(name.place, concat("'", name.text, "' is declared twice"));
             program_->globals.push_back(std::move(global));
         } else {
-            fail(peek().place, concat("expected '-->' (a rule) or '=' (a function or attribute) after '", name.text, "', found ", found()));
+            fail(peek().place, concat("expected '-->' (a rule) or '=' (a function or attribute) after '", name.text,
+                                      "', found ", found()));
         }
     }
 
@@ -183,54 +130,6 @@ private:
         const auto [it, added] = nameIndex_.emplace(name, u32(program_->names.size()));
         if (added) program_->names.push_back(name);
         return it->second;
-    }
-
-    // ---- look-ahead
-    /// True if a percentage `expression % :` starts here; a percent sign is modulo everywhere else.
-    bool percentAhead() const
-    {
-        if (peek().kind != TokenKind::Number && peek().kind != TokenKind::Name && !isSign("(")) return false;
-        u32 depth = 0;
-        bool afterValue = false;
-        for (size_t k = 0; k < 40 && at_ + k < tokens_.size(); ++k) {
-            const Token& token = peek(k);
-            const bool sign = token.kind == TokenKind::Sign;
-            if (depth == 0) {
-                if (isSign("%", k) && isSign(":", k + 1)) return true;
-                if (token.kind == TokenKind::End || token.kind == TokenKind::Text) return false;
-                if (sign && std::string_view("{}|:[]=,;@").find(token.text[0]) != std::string_view::npos && token.text != "==" && token.text != "||") return false;
-                if (sign && token.text == "-->") return false;
-                const bool value = token.kind == TokenKind::Number || token.kind == TokenKind::Name;
-                if (afterValue && (value || (isSign("(", k) && peek(k - 1).kind != TokenKind::Name))) return false;
-            }
-            if (isSign("(", k)) ++depth;
-            if (isSign(")", k)) {
-                if (depth == 0) return false;
-                --depth;
-            }
-            afterValue = token.kind == TokenKind::Number || token.kind == TokenKind::Name || isSign(")", k);
-        }
-        return false;
-    }
-
-    /// True if the next tokens start a declaration: CGA has no separator between them.
-    bool declarationAhead() const
-    {
-        if (atEnd() || isSign("@")) return true;
-        if (peek().kind != TokenKind::Name) return false;
-        if (peek(1).kind == TokenKind::Name && (isName("attr") || isName("const") || isName("style") || isName("import") || isName("extension") || isName("start"))) return true;
-        if (isName("version") && peek(1).kind == TokenKind::Text) return true;
-        size_t k = 1;
-        if (isSign("(", k)) {
-            u32 depth = 0;
-            do {
-                if (peek(k).kind == TokenKind::End) return false;
-                depth += isSign("(", k) ? 1u : 0u;
-                depth -= isSign(")", k) ? 1u : 0u;
-                ++k;
-            } while (depth > 0);
-        }
-        return isSign("-->", k) || isSign("=", k) || isName("with", k);
     }
 
     // ---- bodies
@@ -264,7 +163,9 @@ private:
 
     void parseElse(Body& body)
     {
-        if (!isName("else")) return fail(peek().place, concat("expected 'else' to end the choice that starts at ", body.place.line, ":", body.place.column, ", found ", found()));
+        if (!isName("else"))
+            return fail(peek().place, concat("expected 'else' to end the choice that starts at ", body.place.line, ":",
+                                             body.place.column, ", found ", found()));
         take();
         need(":", "after 'else'");
         body.bodies.push_back(parseBody());
@@ -289,7 +190,8 @@ private:
             if (takeSign("[")) {
                 statement.kind = StatementKind::Push;
                 statement.body.push_back(parseBody());
-                if (!takeSign("]")) return fail(statement.place, concat("this '[' is never closed: expected ']', found ", found()));
+                if (!takeSign("]"))
+                    return fail(statement.place, concat("this '[' is never closed: expected ']', found ", found()));
             } else if (peek().kind == TokenKind::Name) {
                 parseCall(statement);
             } else {
@@ -302,7 +204,8 @@ private:
     void parseCall(Statement& statement)
     {
         const Token name = take();
-        if (const std::string_view advice = refusedOperation(name.text); !advice.empty()) // before its arguments, which may be words of its own
+        if (const std::string_view advice = refusedOperation(name.text);
+            !advice.empty()) // before its arguments, which may be words of its own
             return fail(name.place, concat("the operation '", name.text, "' is not supported: ", advice));
         statement.name = intern(name.text); // resolve.cpp decides what it names
         if (takeSign("(")) {
@@ -326,7 +229,8 @@ private:
                 if (isName("split")) { // old files nest split(y){ .. }* without a size
                     take();
                     skipParentheses();
-                    if (!isSign("{")) return fail(peek().place, concat("expected '{' after split(..), found ", found())), block;
+                    if (!isSign("{"))
+                        return fail(peek().place, concat("expected '{' after split(..), found ", found())), block;
                 }
                 BlockElement element;
                 element.place = peek().place;
@@ -338,7 +242,9 @@ private:
             }
             if (takeSign("|")) continue;
             if (takeSign("}")) break;
-            return fail(peek().place, concat("expected '|' or '}' in the block that opens at ", start.line, ":", start.column, ", found ", found())), block;
+            return fail(peek().place, concat("expected '|' or '}' in the block that opens at ", start.line, ":",
+                                             start.column, ", found ", found())),
+                   block;
         }
         block->repeat = takeSign("*");
         return block;
@@ -356,11 +262,17 @@ private:
         } else {
             const Token name = needName("a selector such as front, side, top or all");
             const auto selector = findSelector(name.text);
-            if (!selector) return fail(name.place, concat("unknown selector '", name.text, "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, nutant, all, a number, or object., world., street. forms"));
+            if (!selector)
+                return fail(name.place,
+                            concat("unknown selector '", name.text,
+                                   "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, "
+                                   "nutant, all, a number, or object., world., street. forms"));
             element.selector = *selector;
         }
         element.combine = isSign("=") || isSign("=:");
-        if (!takeSign(":") && !takeSign("=") && !takeSign("=:")) return fail(peek().place, concat("expected ':' after the ", sizes ? "size" : "selector", ", found ", found()));
+        if (!takeSign(":") && !takeSign("=") && !takeSign("=:"))
+            return fail(peek().place,
+                        concat("expected ':' after the ", sizes ? "size" : "selector", ", found ", found()));
         element.body = parseBody();
         block.elements.push_back(std::move(element));
     }
@@ -413,7 +325,9 @@ private:
             }
             args.push_back(parseExpr());
         }
-        if (!isName("else")) fail(peek().place, concat("expected 'else' to end the choice that starts at ", place.line, ":", place.column, ", found ", found()));
+        if (!isName("else"))
+            fail(peek().place, concat("expected 'else' to end the choice that starts at ", place.line, ":",
+                                      place.column, ", found ", found()));
         take();
         need(":", "after 'else'");
         args.push_back(parseExpr());
@@ -428,11 +342,15 @@ private:
             u32 level;
             BinaryOp op;
         };
-        static constexpr Row kRows[] = {{"||", 0, BinaryOp::Or}, {"&&", 1, BinaryOp::And}, {"==", 2, BinaryOp::Equal}, {"!=", 2, BinaryOp::NotEqual},
-                                        {"<", 3, BinaryOp::Less}, {">", 3, BinaryOp::Greater}, {"<=", 3, BinaryOp::LessEqual}, {">=", 3, BinaryOp::GreaterEqual},
-                                        {"+", 4, BinaryOp::Add}, {"-", 4, BinaryOp::Subtract}, {"*", 5, BinaryOp::Multiply}, {"/", 5, BinaryOp::Divide}, {"%", 5, BinaryOp::Modulo}};
+        static constexpr Row kRows[] = {
+            {"||", 0, BinaryOp::Or},        {"&&", 1, BinaryOp::And},          {"==", 2, BinaryOp::Equal},
+            {"!=", 2, BinaryOp::NotEqual},  {"<", 3, BinaryOp::Less},          {">", 3, BinaryOp::Greater},
+            {"<=", 3, BinaryOp::LessEqual}, {">=", 3, BinaryOp::GreaterEqual}, {"+", 4, BinaryOp::Add},
+            {"-", 4, BinaryOp::Subtract},   {"*", 5, BinaryOp::Multiply},      {"/", 5, BinaryOp::Divide},
+            {"%", 5, BinaryOp::Modulo}};
         for (const Row& row : kRows)
-            if (row.level == level && isSign(row.sign) && !(row.op == BinaryOp::Modulo && isSign(":", 1))) return row.op;
+            if (row.level == level && isSign(row.sign) && !(row.op == BinaryOp::Modulo && isSign(":", 1)))
+                return row.op;
         return {};
     }
 
@@ -458,8 +376,10 @@ private:
         if (takeSign("+")) return parseUnary();
         if (isSign("'") || isSign("~")) {
             const SizeKind kind = isSign("'") ? SizeKind::Relative : SizeKind::Floating;
-            if (!sizeAllowed_) return fail(place, concat(found(), " belongs to sizes: in arguments of s, t and split")), Expr{};
-            if (sizeKind_ != SizeKind::Absolute) return fail(place, "a size has one ' or ~, for the whole of it"), Expr{};
+            if (!sizeAllowed_)
+                return fail(place, concat(found(), " belongs to sizes: in arguments of s, t and split")), Expr{};
+            if (sizeKind_ != SizeKind::Absolute)
+                return fail(place, "a size has one ' or ~, for the whole of it"), Expr{};
             sizeKind_ = kind; // for the whole size expression, wherever the sign stands
             take();
             return parseUnary();
@@ -488,7 +408,9 @@ private:
         } else if (takeSign("(")) {
             // ' and ~ inside parentheses still mean the whole size, as in '(1 - x).
             expr = parseExpr();
-            if (!takeSign(")")) fail(peek().place, concat("expected ')' to close the parenthesis at ", token.place.line, ":", token.place.column, ", found ", found()));
+            if (!takeSign(")"))
+                fail(peek().place, concat("expected ')' to close the parenthesis at ", token.place.line, ":",
+                                          token.place.column, ", found ", found()));
         } else if (isSign("[")) {
             fail(token.place, "arrays are not supported: use case/else or a percentage to choose a value");
         } else if (token.kind == TokenKind::Name) {
@@ -520,18 +442,14 @@ private:
             sizeAllowed_ = outerAllowed;
         }
         if (call && isSign("{")) fail(peek().place, "arrays are not supported, so comp cannot be used as a function");
-        if (isSign("[") && peek().place.line == name.place.line && peek().place.column == name.place.column + name.text.size())
+        if (isSign("[") && peek().place.line == name.place.line &&
+            peek().place.column == name.place.column + name.text.size())
             fail(peek().place, "arrays are not supported: use case/else or a percentage to choose a value");
         Expr expr = make(ExprKind::Keyword, name.place, 0, std::move(args));
         expr.text = name.text;
         return expr;
     }
 
-    std::vector<Token> tokens_;
-    size_t at_ = 0;
-    bool failed_ = false;
-    Error error_;
-    u32 nesting_ = 0;
     bool startNext_ = false;
     bool sizeAllowed_ = false;
     SizeKind sizeKind_ = SizeKind::Absolute;

@@ -12,7 +12,8 @@
 namespace helio::cga {
 
 /// What an expression node is. Children are in Expr::args.
-enum class ExprKind : u8 {
+enum class ExprKind : u8
+{
     Number,
     Text,
     Bool,
@@ -23,12 +24,27 @@ enum class ExprKind : u8 {
     Shape,     ///< index = ShapeAttribute
     Negate,
     Not,
-    Binary,    ///< index = BinaryOp
-    Cases,     ///< condition, value, condition, value, ..., else value
-    Percent    ///< percentage, value, percentage, value, ..., else value
+    Binary, ///< index = BinaryOp
+    Cases,  ///< condition, value, condition, value, ..., else value
+    Percent ///< percentage, value, percentage, value, ..., else value
 };
 
-enum class BinaryOp : u8 { Or, And, Equal, NotEqual, Less, Greater, LessEqual, GreaterEqual, Add, Subtract, Multiply, Divide, Modulo };
+enum class BinaryOp : u8
+{
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    Greater,
+    LessEqual,
+    GreaterEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo
+};
 
 struct Expr
 {
@@ -41,7 +57,8 @@ struct Expr
     std::vector<Expr> args;
 };
 
-enum class SizeKind : u8 {
+enum class SizeKind : u8
+{
     Absolute, ///< metres
     Relative, ///< ' : times the scope's size
     Floating  ///< ~ : takes its share of the rest
@@ -60,7 +77,12 @@ struct Block;
 /// What a rule, a part or a push does: statements, or a choice between bodies.
 struct Body
 {
-    enum class Kind : u8 { Plain, Cases, Percent };
+    enum class Kind : u8
+    {
+        Plain,
+        Cases,
+        Percent
+    };
     Kind kind = Kind::Plain;
     Place place;
     std::vector<Statement> statements; ///< Plain
@@ -69,12 +91,35 @@ struct Body
 };
 
 /// Statement::mode of each operation that takes a bare word.
-inline constexpr u32 kNoAdjust = 4;    ///< split: axis 0..2, plus this
-inline constexpr u32 kWholeScope = 1;  ///< r: about the scope's centre; i: the asset is z up
-enum class ExtrudeMode : u32 { FaceNormal, WorldUp, WorldUpFlatTop };
-enum class SetTarget : u32 { ColorR, ColorG, ColorB, ColorRgb, Name, EmissiveR, EmissiveG, EmissiveB, Seedian, Ignored, FirstGlobal };
+inline constexpr u32 kNoAdjust = 4;   ///< split: axis 0..2, plus this
+inline constexpr u32 kWholeScope = 1; ///< r: about the scope's centre; i: the asset is z up
+enum class ExtrudeMode : u32
+{
+    FaceNormal,
+    WorldUp,
+    WorldUpFlatTop
+};
+enum class SetTarget : u32
+{
+    ColorR,
+    ColorG,
+    ColorB,
+    ColorRgb,
+    Name,
+    EmissiveR,
+    EmissiveG,
+    EmissiveB,
+    Seedian,
+    Ignored,
+    FirstGlobal
+};
 
-enum class StatementKind : u8 { Operation, Rule, Push };
+enum class StatementKind : u8
+{
+    Operation,
+    Rule,
+    Push
+};
 
 struct Statement
 {
@@ -83,9 +128,9 @@ struct Statement
     u32 rule = kNoIndex; ///< into Program::rules; kNoIndex: a terminal
     u32 name = 0;        ///< into Program::names: the rule or terminal
     Place place;
-    std::vector<Size> args;           ///< without the bare words, which are in `mode`
-    u32 mode = 0;                     ///< what the bare word says: an axis, ExtrudeMode, SetTarget, ...
-    std::vector<Body> body;           ///< Push: one
+    std::vector<Size> args; ///< without the bare words, which are in `mode`
+    u32 mode = 0;           ///< what the bare word says: an axis, ExtrudeMode, SetTarget, ...
+    std::vector<Body> body; ///< Push: one
     std::shared_ptr<Block> block;
 };
 
@@ -93,10 +138,10 @@ struct Statement
 struct BlockElement
 {
     Place place;
-    Size size;                          ///< split
-    Selector selector{};                ///< comp
-    u32 selectorIndex = 0;              ///< comp, for Selector::Index
-    bool combine = false;               ///< `=`: all selected faces make one shape
+    Size size;             ///< split
+    Selector selector{};   ///< comp
+    u32 selectorIndex = 0; ///< comp, for Selector::Index
+    bool combine = false;  ///< `=`: all selected faces make one shape
     Body body;
     std::shared_ptr<Block> nested;
 };
@@ -115,7 +160,12 @@ struct Rule
     Body body;
 };
 
-enum class GlobalKind : u8 { Attribute, Constant, Function };
+enum class GlobalKind : u8
+{
+    Attribute,
+    Constant,
+    Function
+};
 
 struct Global
 {

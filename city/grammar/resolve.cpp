@@ -41,7 +41,8 @@ private:
     }
     void warnOnce(Place place, const std::string& name, std::string_view message)
     {
-        if (warned_.insert(name).second) program_.warnings.push_back(errorAt(program_.fileName, place, message).message);
+        if (warned_.insert(name).second)
+            program_.warnings.push_back(errorAt(program_.fileName, place, message).message);
     }
 
     // ---- expressions
@@ -60,7 +61,8 @@ private:
                 return;
             }
         }
-        if (const auto global = program_.globalIndex.find({expr.text, argCount}); global != program_.globalIndex.end()) {
+        if (const auto global = program_.globalIndex.find({expr.text, argCount});
+            global != program_.globalIndex.end()) {
             expr.kind = ExprKind::Global;
             expr.index = global->second;
             for (Expr& arg : expr.args) resolve(arg);
@@ -76,15 +78,18 @@ private:
             return fail(expr.place, concat("the function '", expr.text, "' is not supported: ", advice));
         for (const Global& global : program_.globals)
             if (global.name == expr.text)
-                return fail(expr.place, concat("'", expr.text, "' takes ", global.parameters.size(), " arguments, not ", argCount));
-        fail(expr.place, concat("unknown ", argCount > 0 ? "function" : "name", " '", expr.text, "': declare it with attr, const or as a function, or quote it if it is text"));
+                return fail(expr.place,
+                            concat("'", expr.text, "' takes ", global.parameters.size(), " arguments, not ", argCount));
+        fail(expr.place, concat("unknown ", argCount > 0 ? "function" : "name", " '", expr.text,
+                                "': declare it with attr, const or as a function, or quote it if it is text"));
     }
 
     void resolveFunction(Expr& expr, const FunctionInfo& info)
     {
         const size_t argCount = expr.args.size();
         if (argCount < info.minArgs || argCount > info.maxArgs)
-            return fail(expr.place, concat("'", expr.text, "' takes ", range(info.minArgs, info.maxArgs), " arguments, not ", argCount));
+            return fail(expr.place, concat("'", expr.text, "' takes ", range(info.minArgs, info.maxArgs),
+                                           " arguments, not ", argCount));
         expr.kind = ExprKind::Builtin;
         expr.index = u32(info.function);
         if (!info.keywords) {
@@ -95,14 +100,16 @@ private:
             if (argCount == 0) return;
             const auto selector = findSelector(expr.args[0].text);
             if (expr.args[0].kind != ExprKind::Keyword || !selector)
-                return fail(expr.args[0].place, "geometry.area() takes no argument, or a selector such as top, bottom, side or all");
+                return fail(expr.args[0].place,
+                            "geometry.area() takes no argument, or a selector such as top, bottom, side or all");
             expr.args[0].index = u32(*selector);
             return;
         }
         for (size_t k = 0; k < argCount; ++k) { // touches(inter), inside(inter)
             const std::string& word = expr.args[k].text;
             if (expr.args[k].kind == ExprKind::Keyword && k == 0 && word == "inter") continue;
-            return fail(expr.args[k].place, concat("'", expr.text, "' only knows (inter), the walls of other buildings"));
+            return fail(expr.args[k].place,
+                        concat("'", expr.text, "' only knows (inter), the walls of other buildings"));
         }
     }
 
@@ -118,8 +125,10 @@ private:
         for (Expr& condition : body.conditions) resolve(condition);
         for (Body& inner : body.bodies) resolve(inner);
         for (Statement& statement : body.statements) {
-            if (statement.kind == StatementKind::Push) resolve(statement.body[0]);
-            else resolveCall(statement);
+            if (statement.kind == StatementKind::Push)
+                resolve(statement.body[0]);
+            else
+                resolveCall(statement);
         }
     }
 
@@ -130,9 +139,12 @@ private:
         if (const auto info = findOperation(name)) return resolveOperation(statement, name, *info);
         for (Size& arg : statement.args) {
             resolve(arg.value);
-            if (arg.kind != SizeKind::Absolute) fail(arg.value.place, "' and ~ belong to sizes: in arguments of s, t and split");
+            if (arg.kind != SizeKind::Absolute)
+                fail(arg.value.place, "' and ~ belong to sizes: in arguments of s, t and split");
         }
-        if (statement.block) return fail(statement.place, concat("unknown operation '", name, "': only split and comp take a block { .. }"));
+        if (statement.block)
+            return fail(statement.place,
+                        concat("unknown operation '", name, "': only split and comp take a block { .. }"));
         statement.kind = StatementKind::Rule;
         if (const auto rule = program_.ruleIndex.find({name, argCount}); rule != program_.ruleIndex.end()) {
             statement.rule = rule->second;
@@ -140,10 +152,15 @@ private:
         }
         for (const Rule& rule : program_.rules)
             if (program_.names[rule.name] == name)
-                return fail(statement.place, concat("rule '", name, "' takes ", rule.parameters.size(), " arguments, not ", argCount));
-        if (argCount > 0) return fail(statement.place, concat("unknown operation or rule '", name, "': README.md in city/grammar lists what is read"));
+                return fail(statement.place,
+                            concat("rule '", name, "' takes ", rule.parameters.size(), " arguments, not ", argCount));
+        if (argCount > 0)
+            return fail(statement.place,
+                        concat("unknown operation or rule '", name, "': README.md in city/grammar lists what is read"));
         if (name.back() != '.') {
-            warnOnce(statement.place, name, concat("rule '", name, "' is not declared: its shapes stay as they are (write '", name, ".' if that is meant)"));
+            warnOnce(statement.place, name,
+                     concat("rule '", name, "' is not declared: its shapes stay as they are (write '", name,
+                            ".' if that is meant)"));
             return;
         }
         statement.name = terminal(name.substr(0, name.size() - 1));
@@ -173,21 +190,29 @@ private:
     {
         statement.op = info.op;
         if (info.op == Operation::Ignored) {
-            warnOnce(statement.place, name, concat("'", name, "' is read and ignored: surfaces have one colour, textures and labels are not supported"));
+            warnOnce(statement.place, name,
+                     concat("'", name,
+                            "' is read and ignored: surfaces have one colour, textures and labels are not supported"));
             statement.args.clear();
             return;
         }
         const size_t argCount = statement.args.size();
         if (argCount < info.minArgs || argCount > info.maxArgs)
-            return fail(statement.place, concat("'", name, "' takes ", range(info.minArgs, info.maxArgs), " arguments, not ", argCount, ": write ", info.usage));
+            return fail(statement.place, concat("'", name, "' takes ", range(info.minArgs, info.maxArgs),
+                                                " arguments, not ", argCount, ": write ", info.usage));
         if (info.hasBlock != (statement.block != nullptr))
-            return fail(statement.place, concat(info.hasBlock ? "a block { .. } is missing after '" : "no block { .. } belongs after '", name, "': write ", info.usage));
-        if (!resolveWords(statement)) return fail(statement.place, concat("'", name, "' does not know this bare word: write ", info.usage));
+            return fail(statement.place,
+                        concat(info.hasBlock ? "a block { .. } is missing after '" : "no block { .. } belongs after '",
+                               name, "': write ", info.usage));
+        if (!resolveWords(statement))
+            return fail(statement.place, concat("'", name, "' does not know this bare word: write ", info.usage));
         const bool sizes = info.op == Operation::Resize || info.op == Operation::Translate;
         for (Size& arg : statement.args) {
             resolve(arg.value);
             if (arg.kind == SizeKind::Floating || (arg.kind == SizeKind::Relative && !sizes))
-                fail(arg.value.place, concat(arg.kind == SizeKind::Floating ? "'~' belongs to sizes of split" : "' (relative to the scope) belongs to s, t and split"));
+                fail(arg.value.place,
+                     concat(arg.kind == SizeKind::Floating ? "'~' belongs to sizes of split"
+                                                           : "' (relative to the scope) belongs to s, t and split"));
         }
         if (statement.block) resolveBlock(*statement.block, info.op);
     }
@@ -196,7 +221,8 @@ private:
     bool resolveWords(Statement& statement)
     {
         switch (statement.op) {
-        case Operation::Component: return takeWord(statement) == "f";
+        case Operation::Component:
+            return takeWord(statement) == "f";
         case Operation::AlignScopeToAxes: {
             if (statement.args.empty()) return true;
             statement.mode = 1;
@@ -214,8 +240,10 @@ private:
             if (statement.args.size() == 1) return true;
             const std::string word = takeWord(statement);
             static constexpr std::array<std::pair<std::string_view, ExtrudeMode>, 4> kModes = {
-                {{"face.normal", ExtrudeMode::FaceNormal}, {"vertex.normal", ExtrudeMode::FaceNormal},
-                 {"world.up", ExtrudeMode::WorldUp}, {"world.up.flatTop", ExtrudeMode::WorldUpFlatTop}}};
+                {{"face.normal", ExtrudeMode::FaceNormal},
+                 {"vertex.normal", ExtrudeMode::FaceNormal},
+                 {"world.up", ExtrudeMode::WorldUp},
+                 {"world.up.flatTop", ExtrudeMode::WorldUpFlatTop}}};
             for (const auto& [text, mode] : kModes)
                 if (word == text) return statement.mode = u32(mode), true;
             return false;
@@ -240,8 +268,10 @@ private:
             statement.mode |= kNoAdjust;
             return takeWord(statement) == "noAdjust";
         }
-        case Operation::Set: return resolveSet(statement);
-        default: return true;
+        case Operation::Set:
+            return resolveSet(statement);
+        default:
+            return true;
         }
     }
 
@@ -249,9 +279,15 @@ private:
     {
         const std::string word = takeWord(statement);
         static constexpr std::array<std::pair<std::string_view, SetTarget>, 9> kTargets = {
-            {{"material.color.r", SetTarget::ColorR}, {"material.color.g", SetTarget::ColorG}, {"material.color.b", SetTarget::ColorB},
-             {"material.color.rgb", SetTarget::ColorRgb}, {"material.name", SetTarget::Name}, {"material.emissive.r", SetTarget::EmissiveR},
-             {"material.emissive.g", SetTarget::EmissiveG}, {"material.emissive.b", SetTarget::EmissiveB}, {"seedian", SetTarget::Seedian}}};
+            {{"material.color.r", SetTarget::ColorR},
+             {"material.color.g", SetTarget::ColorG},
+             {"material.color.b", SetTarget::ColorB},
+             {"material.color.rgb", SetTarget::ColorRgb},
+             {"material.name", SetTarget::Name},
+             {"material.emissive.r", SetTarget::EmissiveR},
+             {"material.emissive.g", SetTarget::EmissiveG},
+             {"material.emissive.b", SetTarget::EmissiveB},
+             {"seedian", SetTarget::Seedian}}};
         for (const auto& [text, target] : kTargets)
             if (word == text) return statement.mode = u32(target), true;
         if (const auto global = program_.globalIndex.find({word, 0}); global != program_.globalIndex.end()) {
@@ -261,13 +297,15 @@ private:
         }
         if (word.rfind("material.", 0) != 0 && word.rfind("trim.", 0) != 0) return false;
         statement.mode = u32(SetTarget::Ignored);
-        warnOnce(statement.place, "set " + word, concat("set(", word, ", ..) is read and ignored: surfaces have a colour, a name and an emission"));
+        warnOnce(statement.place, "set " + word,
+                 concat("set(", word, ", ..) is read and ignored: surfaces have a colour, a name and an emission"));
         return true;
     }
 
     void resolveBlock(Block& block, Operation op)
     {
-        if (op != Operation::Split && block.repeat) fail(block.elements.empty() ? Place{} : block.elements[0].place, "only split repeats its block with '*'");
+        if (op != Operation::Split && block.repeat)
+            fail(block.elements.empty() ? Place{} : block.elements[0].place, "only split repeats its block with '*'");
         for (BlockElement& element : block.elements) {
             if (element.nested) {
                 resolveBlock(*element.nested, op);
@@ -287,6 +325,9 @@ private:
 
 } // namespace
 
-Status resolveProgram(Program& program) { return Resolver(program).run(); }
+Status resolveProgram(Program& program)
+{
+    return Resolver(program).run();
+}
 
 } // namespace helio::cga

@@ -14,7 +14,10 @@ std::vector<std::string> RuleSet::attributeNames() const
     return names;
 }
 
-u32 RuleSet::ruleCount() const { return u32(program_->rules.size()); }
+u32 RuleSet::ruleCount() const
+{
+    return u32(program_->rules.size());
+}
 
 Result<RuleSet> parseRules(std::string_view text, std::string_view fileName)
 {

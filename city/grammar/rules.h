@@ -30,8 +30,8 @@ private:
 };
 
 /// Parses CGA text (see README.md for the part of the language that is read). `fileName` only serves the messages.
-/// Errors are one line, `file:line:column: what is wrong, and what to use instead`. Any text gives a RuleSet or an error:
-/// nesting, length and names are limited, so no input can overflow the stack.
+/// Errors are one line, `file:line:column: what is wrong, and what to use instead`. Any text gives a RuleSet or an
+/// error: nesting, length and names are limited, so no input can overflow the stack.
 Result<RuleSet> parseRules(std::string_view text, std::string_view fileName);
 
 } // namespace helio

@@ -44,8 +44,8 @@ struct ShapeState
     glm::dvec3 pivot{0.0};     ///< origin for scope.tx..tz
     glm::dmat3 pivotAxes{1.0}; ///< axes about which r turns
     Look look;
-    std::shared_ptr<const Tile> tile;           ///< null for solids
-    bool intact = false;                        ///< the geometry lies where comp or split made it: its area is part of the face
+    std::shared_ptr<const Tile> tile; ///< null for solids
+    bool intact = false;              ///< the geometry lies where comp or split made it: its area is part of the face
     std::shared_ptr<const InsertedAsset> asset; ///< replaces the geometry
     u32 edge = kNoIndex;                        ///< edge of the footprint that the face stands on
     bool footprint = false;                     ///< the geometry is still the lot: extrude numbers its walls

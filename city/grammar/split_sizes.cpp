@@ -19,7 +19,10 @@ struct Extent
     double fixed = 0.0, floating = 0.0;
 };
 
-double fixedSize(const SplitItem& item, double size) { return std::max(0.0, item.kind == SizeKind::Relative ? item.value * size : item.value); }
+double fixedSize(const SplitItem& item, double size)
+{
+    return std::max(0.0, item.kind == SizeKind::Relative ? item.value * size : item.value);
+}
 
 Extent extentOf(const std::vector<SplitItem>& items, double size);
 
@@ -105,10 +108,12 @@ private:
             if (count <= kMaxParts)
                 while (count > 1.0 && share - count * once.fixed <= kEpsilon) --count;
         } else {
-            count = std::max(0.0, cutLast ? std::ceil(room / once.fixed - kEpsilon) : std::floor(room / once.fixed + kEpsilon));
+            count = std::max(0.0, cutLast ? std::ceil(room / once.fixed - kEpsilon)
+                                          : std::floor(room / once.fixed + kEpsilon));
         }
         if (count > kMaxParts) {
-            error = Error{concat("the block would be repeated ", u64(std::min(count, 1e18)), " times; at most ", kMaxParts, " parts are made: use larger sizes")};
+            error = Error{concat("the block would be repeated ", u64(std::min(count, 1e18)), " times; at most ",
+                                 kMaxParts, " parts are made: use larger sizes")};
             return 0.0;
         }
         return count;

@@ -25,11 +25,11 @@ struct SplitPart
 };
 
 /// Lays out a split along an extent of `size` metres.
-/// Absolute and relative parts take their size in order; the first that does not fit is cut, later ones are never made. Floating
-/// parts and repeats share the rest: a repeat with floating parts is made the whole number of times (at least once) for which the
-/// one common stretch of all floating parts is nearest to 1 (halves to the even number); a repeat without is made as often as it
-/// fits, the last time cut if it ends the split. Several repeats share the rest evenly. Negative sizes count as 0. A repeat
-/// inside a pattern is laid out inside the extent that the pattern gives it.
+/// Absolute and relative parts take their size in order; the first that does not fit is cut, later ones are never made.
+/// Floating parts and repeats share the rest: a repeat with floating parts is made the whole number of times (at least
+/// once) for which the one common stretch of all floating parts is nearest to 1 (halves to the even number); a repeat
+/// without is made as often as it fits, the last time cut if it ends the split. Several repeats share the rest evenly.
+/// Negative sizes count as 0. A repeat inside a pattern is laid out inside the extent that the pattern gives it.
 /// Errors: a repeat without extent, more than kMaxParts parts.
 Result<std::vector<SplitPart>> splitParts(double size, const std::vector<SplitItem>& items);
 

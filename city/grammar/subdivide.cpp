@@ -26,7 +26,8 @@ void replaceGeometry(ShapeState& state, const Scope& scope, Geometry geometry, b
 
 std::string_view selectorName(Selector selector)
 {
-    static constexpr std::string_view kNames[] = {"front", "right", "back", "left", "top", "bottom", "side", "vertical", "horizontal", "aslant", "nutant", "all"};
+    static constexpr std::string_view kNames[] = {"front", "right",    "back",       "left",   "top",    "bottom",
+                                                  "side",  "vertical", "horizontal", "aslant", "nutant", "all"};
     return u32(selector) < std::size(kNames) ? kNames[u32(selector)] : std::string_view("other");
 }
 
@@ -100,7 +101,8 @@ void Interpreter::split(const Statement& statement, const ShapeState& state, Fra
 }
 
 /// Makes one shape of all faces (`combine`), or one of each.
-void Interpreter::spawnFaces(const BlockElement& element, const std::vector<const Face*>& faces, const ShapeState& state, Frame& frame)
+void Interpreter::spawnFaces(const BlockElement& element, const std::vector<const Face*>& faces,
+                             const ShapeState& state, Frame& frame)
 {
     if (faces.empty()) return;
     if (element.combine && faces.size() > 1) {

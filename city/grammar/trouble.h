@@ -9,7 +9,8 @@
 
 namespace helio::cga {
 
-/// Errors, warnings and the work budget of one building. The first error sticks; everything that follows sees failed() and stops.
+/// Errors, warnings and the work budget of one building. The first error sticks; everything that follows sees failed()
+/// and stops.
 class Trouble
 {
 public:
@@ -34,7 +35,9 @@ public:
     void spend(Place place, u64 steps)
     {
         steps_ += steps;
-        if (steps_ > kMaxSteps) fail(place, concat("the rules take more than ", kMaxSteps, " steps: look for a recursion that multiplies, or use larger sizes"));
+        if (steps_ > kMaxSteps)
+            fail(place, concat("the rules take more than ", kMaxSteps,
+                               " steps: look for a recursion that multiplies, or use larger sizes"));
     }
 
 private:

@@ -61,7 +61,8 @@ std::string formatColor(const glm::dvec3& srgb)
 glm::dvec3 linearFromSrgb(const glm::dvec3& srgb)
 {
     glm::dvec3 linear;
-    for (int k = 0; k < 3; ++k) linear[k] = srgb[k] <= 0.04045 ? srgb[k] / 12.92 : std::pow((srgb[k] + 0.055) / 1.055, 2.4);
+    for (int k = 0; k < 3; ++k)
+        linear[k] = srgb[k] <= 0.04045 ? srgb[k] / 12.92 : std::pow((srgb[k] + 0.055) / 1.055, 2.4);
     return linear;
 }
 

@@ -14,7 +14,8 @@ using Value = Attribute;
 
 /// "a number", "true or false" or "text", for messages.
 std::string_view kindOf(const Value& value);
-/// A value as text: numbers in the shortest form that reads back the same, without a decimal point where they are whole.
+/// A value as text: numbers in the shortest form that reads back the same, without a decimal point where they are
+/// whole.
 std::string toText(const Value& value);
 /// The whole text as a finite number, or nothing.
 std::optional<double> toNumber(std::string_view text);

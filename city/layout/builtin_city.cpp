@@ -45,11 +45,13 @@ void addFootprint(Layout& layout, std::string id, Polygon2 outline, double heigh
     layout.footprints.push_back(std::move(footprint));
 }
 
-// The pieces of at least 20 m2.
-void addGroundOf(Layout& layout, const char* kind, const ClipperLib::Paths& paths)
+// Adds the pieces of at least 20 m2 and returns them.
+ClipperLib::Paths addGroundOf(Layout& layout, const char* kind, const ClipperLib::Paths& paths)
 {
+    ClipperLib::Paths added;
     for (const Polygon2& polygon : subtractToPolygons(paths, {})) {
         if (area(polygon) < 20.0) continue;
+        appendRings(added, polygon);
         GroundArea ground;
         ground.kind = kind;
         for (const glm::dvec2& corner : polygon.outer) ground.polygon.outer.emplace_back(corner, 0.0);
@@ -59,6 +61,7 @@ void addGroundOf(Layout& layout, const char* kind, const ClipperLib::Paths& path
         }
         layout.ground.push_back(std::move(ground));
     }
+    return added;
 }
 
 glm::dvec2 middleOf(const Ring2& ring)
@@ -118,8 +121,7 @@ void buildBlock(Layout& layout, Random& random, const CityBlock& block, u32 numb
     ClipperLib::Paths court = subtract({inside}, houses);
     if (chance(random, 0.6)) {
         const ClipperLib::Paths lawn = subtract(offset({inside}, -16.0), offset(unite(houses), 2.5));
-        addGroundOf(layout, "green", lawn);
-        court = subtract(court, lawn);
+        court = subtract(court, addGroundOf(layout, "green", lawn));
     }
     // A court that opens through a gap in the row is still a court.
     addGroundOf(layout, "court", court);
@@ -146,8 +148,7 @@ void buildSquare(Layout& layout, Random& random, const CityBlock& block)
     for (const glm::dvec2& direction : {glm::normalize(along + across), glm::normalize(along - across)})
         appendRings(paved, box(centre, direction, far, 3.0));
     const ClipperLib::Path square = toGrid(block.outline);
-    const ClipperLib::Paths lawn = subtract(offset({square}, -5.0), paved);
-    addGroundOf(layout, "green", lawn);
+    const ClipperLib::Paths lawn = addGroundOf(layout, "green", subtract(offset({square}, -5.0), paved));
     addGroundOf(layout, "pavement", subtract(subtract({square}, lawn), built));
 }
 

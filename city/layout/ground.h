@@ -16,7 +16,7 @@ struct GroundOptions
 /// Fills Layout::ground with everything that no footprint covers: the bounding box with its margin, cut along a grid,
 /// each piece of one kind at z = 0 facing up. Kinds: those of the areas that the layout already holds (lawns, say; they
 /// are cut up too), "court" where buildings enclose it, "pavement" along the other facades, "street" for the rest.
-/// Pieces tile the ground on a grid of 0.1 mm; pieces below 0.01 m2 are dropped. GroundArea::block numbers squares of
+/// Pieces tile the ground on a grid of 0.1 mm; pieces below 0.001 m2 are dropped. GroundArea::block numbers squares of
 /// 16 x 16 cells. A layout without footprints gets no ground.
 void addGround(Layout& layout, const GroundOptions& options = {});
 

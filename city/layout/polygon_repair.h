@@ -29,7 +29,8 @@ bool contains(const Ring2& ring, const glm::dvec2& point);
 
 /// Makes simple polygons of an arbitrary one (coordinates within kGridLimit): repeats, spikes and straight corners are
 /// dropped, rings oriented (outer counter-clockwise), crossing rings united by non-zero filling on a grid of 0.1 mm,
-/// edges below 0.1 m collapsed, small pieces and slivers dropped. A clean polygon keeps its coordinates to the last bit.
+/// edges below 0.1 m collapsed, small pieces and slivers dropped. A clean polygon keeps its coordinates to the last
+/// bit.
 std::vector<Polygon2> cleanPolygon(Polygon2 polygon, RepairReport& report);
 
 /// The repairs in words, "repaired crossing outline, removed 1 spike"; empty if there were none. Reversed rings and

@@ -36,13 +36,13 @@ void checkTree(const NodeTree& tree)
     }
 }
 
-template <class Values> MinMeanMax summarise(const NodeTree& tree, const Values& values)
+template <class Values> MinMeanMax summarise(const NodeTree& tree, const std::vector<u32>& patches, const Values& values)
 {
     MinMeanMax result;
-    if (tree.patches.empty()) return result;
-    result.min = result.max = double(values[0]);
+    if (patches.empty()) return result;
+    result.min = result.max = double(values[patches[0]]);
     double area = 0.0;
-    for (u32 i = 0; i < tree.patchCount(); ++i) {
+    for (const u32 i : patches) {
         const double value = double(values[i]);
         result.min = std::min(result.min, value);
         result.max = std::max(result.max, value);
@@ -51,6 +51,23 @@ template <class Values> MinMeanMax summarise(const NodeTree& tree, const Values&
     }
     result.mean /= area;
     return result;
+}
+
+void summariseRows(const NodeTree& tree, const LinkTable& links, const SkyScan& scan, LightStats& stats)
+{
+    constexpr float kInside = 0.01f; // share of rays that meet back sides
+    std::vector<u32> open;
+    for (u32 i = 0; i < tree.patchCount(); ++i)
+        if (scan.back[i] <= kInside) open.push_back(i);
+    stats.insidePatchCount = tree.patchCount() - u32(open.size());
+    const std::vector<double> rowSums = patchRowSums(tree, links);
+    std::vector<double> closure(rowSums);
+    for (const u32 i : open) closure[i] += double(scan.sky[i]) + double(scan.below[i]) + double(scan.back[i]);
+    stats.closure = summarise(tree, open, closure);
+    stats.rowSum = summarise(tree, open, rowSums);
+    stats.rayRowSum = summarise(tree, open, scan.rowSum);
+    stats.sky = summarise(tree, open, scan.sky);
+    if (stats.rayRowSum.mean > 0.0) stats.closureDefect = stats.rowSum.mean / stats.rayRowSum.mean - 1.0;
 }
 
 /// Times the steps and hands their progress on.
@@ -122,14 +139,7 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
 
     stats.linkCount = bake.links.column.size();
     stats.linksPerPatch = double(stats.linkCount) / double(std::max(1u, tree.patchCount()));
-    const std::vector<double> rowSums = patchRowSums(tree, bake.links);
-    std::vector<double> closure(rowSums);
-    for (u32 i = 0; i < tree.patchCount(); ++i) closure[i] += double(scan.sky[i]) + double(scan.below[i]) + double(scan.back[i]);
-    stats.closure = summarise(tree, closure);
-    stats.rowSum = summarise(tree, rowSums);
-    stats.rayRowSum = summarise(tree, scan.rowSum);
-    stats.sky = summarise(tree, scan.sky);
-    if (stats.rayRowSum.mean > 0.0) stats.closureDefect = stats.rowSum.mean / stats.rayRowSum.mean - 1.0;
+    summariseRows(tree, bake.links, scan, stats);
     return bake;
 }
 

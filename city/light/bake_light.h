@@ -29,7 +29,7 @@ struct LightOptions
     double cutoff = 22.5;  ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
     u32 jobs = 0;          ///< threads; 0 = all cores. The result does not depend on it.
     u64 seed = 1;
-    std::function<void(const char* step, double done)> progress; ///< may be empty; called from one thread at a time, done in 0..1
+    std::function<void(const char* step, double done)> progress{}; ///< may be empty; called from one thread at a time, done in 0..1
 };
 
 struct MinMeanMax
@@ -51,7 +51,10 @@ struct LightStats
     u32 rootPairCount = 0;      ///< pairs of planar roots that may see each other
     u64 pairsEvaluated = 0;     ///< node pairs that the oracle looked at
     u32 raysPerPatch = 0;
-    MinMeanMax closure;    ///< per patch: links (own and ancestors') + sky + escape below the horizon + back faces; 1 = closed
+    /// Patches of which more than 1 % of the rays meet back sides: walls against a neighbour's wall or inside a solid. What they
+    /// see hangs on the order of coincident faces; the sums below leave them out.
+    u32 insidePatchCount = 0;
+    MinMeanMax closure;    ///< per patch: links (own and ancestors') + sky + escape below the horizon + back sides; 1 = closed
     MinMeanMax rowSum;     ///< per patch: links, own and ancestors'
     MinMeanMax rayRowSum;  ///< per patch: fraction of its rays that hit a lit side
     MinMeanMax sky;        ///< per patch: fraction of its rays that reach the sky

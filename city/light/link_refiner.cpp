@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "city/base/hash.h"
 #include "city/light/sequence.h"
@@ -17,9 +19,25 @@ constexpr double kInsidePartError = 0.1; // of a part's variance: what the parts
 constexpr double kVisibilityError = 0.1; // of the variance that few rays leave
 constexpr double kSurelyTooCoarse = 30.0;  // tolerances: power x (size / distance)^2 that no link was ever accepted with
 constexpr double kFarDistance = 1.5;       // in sums of radii: from here on the factor varies little over both nodes
+constexpr double kNearFactor = 0.1;        // form factor from which on rays are aimed by the cosine
 constexpr u32 kMaxRaysPerCell = 64;
 
 double squaredRatio(double a, double b) { return b > 0.0 ? std::min(1.0, a * a / (b * b)) : 1.0; }
+
+/// Even-odd test in the coordinate plane that the polygon's plane is nearest to.
+bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
+{
+    const glm::dvec3 n = glm::abs(normal);
+    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z > n.x && n.z > n.y ? 1 : 2;
+    bool inside = false;
+    for (const Ring3& ring : rings) {
+        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+            const glm::dvec3 &a = ring[i], &b = ring[j];
+            if ((a[v] > point[v]) != (b[v] > point[v]) && point[u] < a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u])) inside = !inside;
+        }
+    }
+    return inside;
+}
 
 } // namespace
 
@@ -62,6 +80,12 @@ glm::dvec3 LinkRefiner::pointIn(u32 node, double u, double v) const
 void LinkRefiner::shoot(Cell& cell, u32 a, u32 b, u32 rays) const
 {
     const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(limits_.seed, a), b));
+    const bool swap = tree_.nodes[b].area < tree_.nodes[a].area;
+    const u32 small = swap ? b : a, large = swap ? a : b;
+    if (cell.transfer > kNearFactor * tree_.nodes[small].area) {
+        shootNear(cell, small, large, shift, rays);
+        return;
+    }
     const glm::dvec3 &na = tree_.nodes[a].normal, &nb = tree_.nodes[b].normal;
     for (const u32 end = cell.next + rays; cell.next < end; ++cell.next) {
         const std::array<double, 4> x = shiftedSobol4(cell.next, shift);
@@ -72,6 +96,30 @@ void LinkRefiner::shoot(Cell& cell, u32 a, u32 b, u32 rays) const
         ++cell.rays;
         cell.weight += kernel;
         if (!visibility_.isBlocked(p, na, q, nb)) cell.open += kernel;
+    }
+}
+
+void LinkRefiner::shootNear(Cell& cell, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const
+{
+    // Points that are uniform on both would seldom be near each other, yet near points exchange most: directions by the cosine
+    // from the smaller one find them. All that reach the larger one's outline count alike.
+    const glm::dvec3 &normal = tree_.nodes[small].normal, &other = tree_.nodes[large].normal, &onPlane = tree_.nodes[large].centroid;
+    const PlaneFrame frame = planeFrame(normal);
+    const u32 end = cell.rays + rays;
+    for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && cell.rays < end; --tries, ++cell.next) {
+        const std::array<double, 4> x = shiftedSobol4(cell.next, shift);
+        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
+        const glm::dvec3 direction = r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
+        const double facing = -glm::dot(other, direction);
+        if (facing <= 0.0) continue;
+        const glm::dvec3 p = pointIn(small, x[2], x[3]);
+        const double height = glm::dot(other, p - onPlane);
+        if (height <= 0.0) continue;
+        const glm::dvec3 q = p + height / facing * direction;
+        if (!isInside(q, tree_.outlineOf(large), other)) continue;
+        ++cell.rays;
+        cell.weight += 1.0;
+        if (!visibility_.isBlocked(p, normal, q, other)) cell.open += 1.0;
     }
 }
 
@@ -165,6 +213,7 @@ bool LinkRefiner::isSurelyTooCoarse(u32 a, u32 b, double transfer) const
     if (power(a, b, transfer) * squaredRatio(std::max(ra, rb), distance) <= kSurelyTooCoarse * limits_.tolerance) return false;
     // Only a pair that sees something: what is blocked is better judged as a whole.
     Cell cell;
+    cell.transfer = transfer;
     shoot(cell, a, b, limits_.raysPerPart);
     return cell.open > 0.0;
 }
@@ -183,15 +232,15 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB)
         Cell cell;
         cell.transfer = whole;
         const double strength = kVisibilityError * power(nodeA, nodeB, whole);
-        u32 batch = limits_.raysPerPart;
-        while (true) {
+        for (u32 asked = 0;;) {
+            const u32 batch = std::max(asked, limits_.raysPerPart); // doubles the number
             shoot(cell, nodeA, nodeB, batch);
+            asked += batch;
             const double open = cell.weight > 0.0 ? cell.open / cell.weight : 1.0, n = double(cell.rays) + 2.0;
-            if (cell.next >= kMaxRaysPerCell || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= limits_.tolerance) {
+            if (asked >= kMaxRaysPerCell || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= limits_.tolerance) {
                 link(nodeA, nodeB, whole * open);
                 return;
             }
-            batch = cell.next; // doubles the number
         }
     }
 

@@ -60,6 +60,7 @@ private:
     Parts partsOf(u32 node) const;
     glm::dvec3 pointIn(u32 node, double u, double v) const;
     void shoot(Cell& cell, u32 a, u32 b, u32 rays) const;
+    void shootNear(Cell& cell, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const;
     Estimate estimate(const Parts& a, const Parts& b, u32 nodeA, u32 nodeB) const;
     /// Squared error of the irradiance of one side for a constant sender: parts `mine` receive, `theirs` send.
     void addErrors(const Parts& mine, const Parts& theirs, u32 receiver, u32 sender, bool mineIsA, double meanOpen,

@@ -23,7 +23,7 @@ struct LinkOptions
     u32 raysPerLink = 4;  ///< visibility rays of a pair of parts, > 0
     u32 jobs = 0;
     u64 seed = 1;
-    std::function<void(double)> progress;
+    std::function<void(double)> progress{};
 };
 
 struct LinkBuild

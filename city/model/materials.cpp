@@ -14,10 +14,11 @@ struct Entry
     double r, g, b, solar;
 };
 
-// Solar reflectances lie in the ranges of Oke, "Boundary Layer Climates", 2nd ed. 1987, table 8.1 (urban materials: asphalt 0.05-0.20,
-// concrete 0.10-0.35, brick 0.20-0.40, stone 0.20-0.35, slate 0.10, tiles 0.10-0.35, white paint 0.50-0.90, other paint 0.20-0.35;
-// grass 0.16-0.26, its table 1.1); clean facade stone and plaster lie between its stone and its white paint. Glass is 0.12 in every
-// channel: what a window with a dark room behind it sends back diffusely. Colours are typical hues scaled to about these values.
+// Solar reflectances lie in the ranges of Oke, "Boundary Layer Climates", 2nd ed. 1987, table 8.1 (urban materials:
+// asphalt 0.05-0.20, concrete 0.10-0.35, brick 0.20-0.40, stone 0.20-0.35, slate 0.10, tiles 0.10-0.35, white paint
+// 0.50-0.90, other paint 0.20-0.35; grass 0.16-0.26, its table 1.1); clean facade stone and plaster lie between its
+// stone and its white paint. Glass is 0.12 in every channel: what a window with a dark room behind it sends back
+// diffusely. Colours are typical hues scaled to about these values.
 constexpr Entry kMaterials[] = {
     {"alu", 0.45, 0.46, 0.47, 0.46},
     {"asphalt", 0.10, 0.10, 0.10, 0.12},
@@ -56,7 +57,8 @@ constexpr Entry kMaterials[] = {
 
 std::optional<glm::dvec4> findMaterial(std::string_view name)
 {
-    const auto* found = std::find_if(std::begin(kMaterials), std::end(kMaterials), [&](const Entry& entry) { return entry.name == name; });
+    const auto* found = std::find_if(std::begin(kMaterials), std::end(kMaterials),
+                                     [&](const Entry& entry) { return entry.name == name; });
     if (found == std::end(kMaterials)) return {};
     return glm::dvec4(found->r, found->g, found->b, found->solar);
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/pack/pipeline.h"
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "city/base/file.h"
@@ -123,12 +126,17 @@ private:
         clock_.begin("rules");
         Result<RuleSet> rules = readRules();
         if (!rules) return rules.error();
+        const std::vector<std::string> known = rules->attributeNames();
+        for (const auto& [name, value] : options_.attributes)
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                return Error{concat(out_.content.index.rules, ": there is no attribute '", name, "' to set")};
         clock_.begin("ground");
         addGround(*layout);
         clock_.begin("derivation");
         DeriveOptions derivation;
         derivation.seed = options_.light.seed;
         derivation.jobs = options_.light.jobs;
+        derivation.attributes = options_.attributes;
         derivation.assetBox = [&](const std::string& name) -> Result<AssetBox> {
             Result<const AssetMesh*> mesh = library_.find(name);
             if (!mesh) return mesh.error();
@@ -216,12 +224,14 @@ private:
         index.source = sourceName();
         index.method = methodName(options_.light.method);
         index.seed = options_.light.seed;
-        const nlohmann::ordered_json settings = {{"epsilon", options_.light.formFactorEpsilon},
-                                                 {"rays_per_patch", options_.light.raysPerPatch},
-                                                 {"rays_per_link", options_.light.raysPerLink},
-                                                 {"cutoff_m", options_.light.cutoff},
-                                                 {"default_height_m", options_.defaultHeight}};
-        index.options = settings.dump();
+        nlohmann::ordered_json settings = {{"epsilon", options_.light.formFactorEpsilon},
+                                           {"rays_per_patch", options_.light.raysPerPatch},
+                                           {"rays_per_link", options_.light.raysPerLink},
+                                           {"cutoff_m", options_.light.cutoff},
+                                           {"default_height_m", options_.defaultHeight}};
+        for (const auto& [name, value] : options_.attributes)
+            std::visit([&, key = name](const auto& plain) { settings["attributes"][key] = plain; }, value);
+        index.options = settings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 
         BakeStats& stats = out_.stats;
         stats.buildings = u32(build_.tree.buildingIds.size());
@@ -250,6 +260,15 @@ private:
 Result<BakeResult> bake(const BakeOptions& options)
 {
     return Pipeline(options).run();
+}
+
+Attribute attributeFromText(const std::string& text)
+{
+    double number = 0.0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failure == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) return number;
+    if (text == "true" || text == "false") return text == "true";
+    return text;
 }
 
 const char* methodName(LinkMethod method)

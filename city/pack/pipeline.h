@@ -5,6 +5,7 @@
 #include <map>
 
 #include "city/light/bake_light.h"
+#include "city/model/footprint.h"
 #include "city/pack/content.h"
 
 namespace helio {
@@ -19,6 +20,8 @@ struct BakeOptions
     double latitudeDeg = 50.1, longitudeDeg = 14.4; ///< of the tile's origin, for suns by date; degrees
     double northDeg = 0.0;                          ///< clockwise from true north to +y, degrees
     double defaultHeight = 12.0;                    ///< m, of footprints without any hint of their height
+    std::map<std::string, Attribute>
+        attributes;     ///< of the rules, for all buildings; win over the footprints' properties
     LightOptions light; ///< method, thresholds, jobs and seed; jobs and seed hold for all steps
 };
 
@@ -44,6 +47,9 @@ struct BakeResult
 /// Footprints or polygons to the content of a pack: import, ground, rules, assets, node tree, links. Content depends on
 /// the input and the options alone, not on light.jobs. Errors are one line; nothing is written.
 Result<BakeResult> bake(const BakeOptions& options);
+
+/// The value that NAME=TEXT gives an attribute: a number, true or false, else the text itself.
+Attribute attributeFromText(const std::string& text);
 
 /// "heliopolis", "paper" or "paper-literal".
 const char* methodName(LinkMethod method);

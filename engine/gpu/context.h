@@ -18,16 +18,17 @@ class PipelineCache;
 
 struct ContextOptions
 {
-    bool validation = false;                     // validation layer with synchronisation validation; messages() collects
-    std::string device;                          // part of the device's name; empty = environment HELIO_DEVICE, else automatic
-    u32 texelElementLimit = 0;                   // if not 0, lowers the device's limit (forces the storage-buffer variants)
+    bool validation = false;   // validation layer with synchronisation validation; messages() collects
+    std::string device;        // part of the device's name; empty = environment HELIO_DEVICE, else automatic
+    u32 texelElementLimit = 0; // if not 0, lowers the device's limit (forces the storage-buffer variants)
     std::vector<const char*> instanceExtensions; // what the window system asks for; none = headless
-    /// Makes the surface to present to; null = headless. The context owns the surface. Only devices that can present to it
-    /// are chosen, and the swapchain extension is enabled.
+    /// Makes the surface to present to; null = headless. The context owns the surface. Only devices that can present to
+    /// it are chosen, and the swapchain extension is enabled.
     std::function<VkResult(VkInstance, VkSurfaceKHR*)> makeSurface;
 };
 
-enum class Sampler : u32 {
+enum class Sampler : u32
+{
     Nearest, // clamp to edge
     Linear,  // clamp to edge
     Shadow,  // compare: 1 where reference <= texel, bilinear over the four results; lit outside the image
@@ -39,8 +40,8 @@ inline constexpr u32 kSamplerCount = 3;
 class Context
 {
 public:
-    /// Picks a device (discrete before integrated before the rest, in the loader's order; or the one asked for) and opens
-    /// it. Error: one sentence that says what is missing and what to do.
+    /// Picks a device (discrete before integrated before the rest, in the loader's order; or the one asked for) and
+    /// opens it. Error: one sentence that says what is missing and what to do.
     static Result<std::unique_ptr<Context>> create(const ContextOptions& options);
     ~Context();
     Context(const Context&) = delete;

@@ -34,8 +34,8 @@ struct DeviceFacts
     u32 maxImageArrayLayers = 0;
     u32 maxTexelBufferElements = 0;
     u64 maxStorageBufferBytes = 0;
-    u32 maxDispatchGroups = 0;     // along x
-    float timestampPeriodNs = 0;   // ns per tick; 0 = the queue has no timestamps
+    u32 maxDispatchGroups = 0;   // along x
+    float timestampPeriodNs = 0; // ns per tick; 0 = the queue has no timestamps
 };
 
 /// One thing that a device must have: how to test it, its name, and why we need it.

@@ -13,9 +13,12 @@ namespace {
 VkShaderStageFlagBits stageBit(ShaderStage stage)
 {
     switch (stage) {
-    case ShaderStage::Vertex: return VK_SHADER_STAGE_VERTEX_BIT;
-    case ShaderStage::Fragment: return VK_SHADER_STAGE_FRAGMENT_BIT;
-    case ShaderStage::Compute: break;
+    case ShaderStage::Vertex:
+        return VK_SHADER_STAGE_VERTEX_BIT;
+    case ShaderStage::Fragment:
+        return VK_SHADER_STAGE_FRAGMENT_BIT;
+    case ShaderStage::Compute:
+        break;
     }
     return VK_SHADER_STAGE_COMPUTE_BIT;
 }
@@ -23,10 +26,14 @@ VkShaderStageFlagBits stageBit(ShaderStage stage)
 VkDescriptorType descriptorType(BindingKind kind)
 {
     switch (kind) {
-    case BindingKind::UniformTexelBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    case BindingKind::SampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    case BindingKind::StorageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    case BindingKind::StorageBuffer: break;
+    case BindingKind::UniformTexelBuffer:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case BindingKind::SampledImage:
+        return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case BindingKind::StorageImage:
+        return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case BindingKind::StorageBuffer:
+        break;
     }
     return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
@@ -125,7 +132,8 @@ Pipeline PipelineCache::makeLayout(const std::vector<const ShaderCode*>& shaders
             const auto found = std::find_if(pipeline.bindings.begin(), pipeline.bindings.end(), same);
             if (found == pipeline.bindings.end()) {
                 pipeline.bindings.push_back(binding);
-                bindings.push_back({binding.binding, descriptorType(binding.kind), 1, u32(stageBit(shader->stage)), nullptr});
+                bindings.push_back(
+                    {binding.binding, descriptorType(binding.kind), 1, u32(stageBit(shader->stage)), nullptr});
                 continue;
             }
             HELIO_CHECK(found->kind == binding.kind, "binding ", binding.binding, " of '", shader->name,
@@ -233,8 +241,8 @@ const Pipeline& PipelineCache::graphics(const GraphicsPipelineDesc& desc)
     depth.depthCompareOp = desc.depthCompare;
 
     VkPipelineColorBlendAttachmentState target{};
-    target.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                            VK_COLOR_COMPONENT_A_BIT;
+    target.colorWriteMask =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     target.blendEnable = desc.blend;
     target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
     target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;

@@ -43,7 +43,8 @@ struct VertexSlot
 };
 
 /// Triangle lists with dynamic rendering; viewport, scissor and the depth bias values are set while recording. Counter-
-/// clockwise in a y-up clip space is the front (the viewport is flipped so that clip-space +y points up on the picture).
+/// clockwise in a y-up clip space is the front (the viewport is flipped so that clip-space +y points up on the
+/// picture).
 struct GraphicsPipelineDesc
 {
     const ShaderCode* vertex = nullptr;
@@ -57,7 +58,7 @@ struct GraphicsPipelineDesc
     bool depthClamp = false; // clamps instead of clipping at near and far; needs the device feature, else clips
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    bool blend = false; // source alpha over, all colour targets
+    bool blend = false;                       // source alpha over, all colour targets
     std::vector<VertexSlot> vertexSlots = {}; // empty = the vertex shader pulls from storage buffers
     std::vector<VertexAttribute> attributes = {};
     std::vector<SpecConstant> constants = {}; // for both stages

@@ -73,7 +73,8 @@ void Recorder::begin()
     wait();
     const VkDevice device = context_.device();
     vkCheck(vkResetCommandPool(device, pool_, 0), "vkResetCommandPool");
-    for (const VkDescriptorPool pool : descriptorPools_) vkCheck(vkResetDescriptorPool(device, pool, 0), "vkResetDescriptorPool");
+    for (const VkDescriptorPool pool : descriptorPools_)
+        vkCheck(vkResetDescriptorPool(device, pool, 0), "vkResetDescriptorPool");
     usedPools_ = 0;
     marks_.clear();
     VkCommandBufferBeginInfo info{};
@@ -126,7 +127,8 @@ VkDescriptorSet Recorder::allocateSet(VkDescriptorSetLayout layout)
         info.descriptorPool = descriptorPools_[usedPools_];
         const VkResult result = vkAllocateDescriptorSets(context_.device(), &info, &set);
         if (result == VK_SUCCESS) return set;
-        if (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL) vkCheck(result, "descriptor set");
+        if (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)
+            vkCheck(result, "descriptor set");
     }
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 8},
@@ -158,7 +160,8 @@ void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> bounds)
     std::vector<VkWriteDescriptorSet> writes(bounds.size());
     for (size_t i = 0; i < pipeline.bindings.size(); ++i) {
         const ShaderBinding& wanted = pipeline.bindings[i];
-        const auto found = std::find_if(bounds.begin(), bounds.end(), [&](const Bound& b) { return b.binding == wanted.binding; });
+        const auto found =
+            std::find_if(bounds.begin(), bounds.end(), [&](const Bound& b) { return b.binding == wanted.binding; });
         HELIO_CHECK(found != bounds.end(), "no resource for binding ", wanted.binding);
         const bool isImage = wanted.kind == BindingKind::SampledImage || wanted.kind == BindingKind::StorageImage;
         HELIO_CHECK(isImage ? found->image != nullptr : found->buffer != nullptr, "binding ", wanted.binding, " wants ",
@@ -259,7 +262,8 @@ std::vector<PassTime> Recorder::times()
     std::vector<PassTime> times;
     for (size_t i = 1; i < marks_.size(); ++i) {
         if (marks_[i].empty()) continue; // a start: the stretch before it is nobody's
-        times.push_back({marks_[i], double(ticks[i] - ticks[i - 1]) * double(context_.facts().timestampPeriodNs) * 1e-6});
+        times.push_back(
+            {marks_[i], double(ticks[i] - ticks[i - 1]) * double(context_.facts().timestampPeriodNs) * 1e-6});
     }
     return times;
 }

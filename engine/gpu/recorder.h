@@ -21,7 +21,7 @@ struct Bound
     u64 offset = 0;                        // storage buffers, bytes
     u64 bytes = 0;                         // storage buffers, 0 = to the end
     Sampler sampler = Sampler::Nearest;    // sampled images
-    ImagePart part = {};                        // images
+    ImagePart part = {};                   // images
 };
 
 /// Number of work groups along each axis.
@@ -32,8 +32,9 @@ struct Groups
     u32 z = 1;
 };
 
-/// Groups of `groupSize` invocations that cover `items`. Above 65535 groups the rest goes to y: the shader's linear group
-/// index is gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, and it must compare its item with the item count.
+/// Groups of `groupSize` invocations that cover `items`. Above 65535 groups the rest goes to y: the shader's linear
+/// group index is gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, and it must compare its item with the item
+/// count.
 Groups groupsFor(u64 items, u32 groupSize);
 /// Groups that cover an image of width x height with tiles.
 Groups groupsFor2D(u32 width, u32 height, u32 tileWidth, u32 tileHeight);
@@ -44,8 +45,8 @@ struct PassTime
     double milliseconds = 0;
 };
 
-/// One command buffer with what it needs until the device is done: descriptor pools, timestamps, a fence. Use two of them
-/// in turn to have two frames in flight. begin, record, submit, wait; begin waits by itself.
+/// One command buffer with what it needs until the device is done: descriptor pools, timestamps, a fence. Use two of
+/// them in turn to have two frames in flight. begin, record, submit, wait; begin waits by itself.
 class Recorder
 {
 public:
@@ -69,8 +70,8 @@ public:
     Context& context() const { return context_; }
     VkCommandBuffer commands() const { return commands_; }
 
-    /// Binds a pipeline and a fresh descriptor set. Checked: every binding of the shader is given once, with a resource of
-    /// its kind, storage ranges within the device's limit. Barriers: none, the caller's.
+    /// Binds a pipeline and a fresh descriptor set. Checked: every binding of the shader is given once, with a resource
+    /// of its kind, storage ranges within the device's limit. Barriers: none, the caller's.
     void bind(const Pipeline& pipeline, std::span<const Bound> bounds);
     /// Push constants of the bound pipeline; `bytes` must have the size of the shader's block.
     void push(const Pipeline& pipeline, std::span<const std::byte> bytes);
@@ -80,9 +81,9 @@ public:
     void barrier(VkPipelineStageFlags2 srcStages, VkAccessFlags2 srcAccess, VkPipelineStageFlags2 dstStages,
                  VkAccessFlags2 dstAccess);
 
-    /// Marks the end of a named stretch of work, which began at the previous mark; an empty name only marks where the next
-    /// one begins. Order on tiled software drivers: EndRendering; mark; barrier. Barriers: none. Nothing if the queue has
-    /// no timestamps.
+    /// Marks the end of a named stretch of work, which began at the previous mark; an empty name only marks where the
+    /// next one begins. Order on tiled software drivers: EndRendering; mark; barrier. Barriers: none. Nothing if the
+    /// queue has no timestamps.
     void mark(const std::string& name);
     /// After wait: the stretches of the last submission in order. Empty without timestamps.
     std::vector<PassTime> times();

@@ -36,9 +36,9 @@ Buffer::Buffer(Context& context, BufferDesc desc) : context_(&context), desc_(st
     VmaAllocationCreateInfo memory{};
     memory.usage = VMA_MEMORY_USAGE_AUTO;
     if (desc_.memory != Memory::Device) {
-        memory.flags = VMA_ALLOCATION_CREATE_MAPPED_BIT | (desc_.memory == Memory::Upload
-                                                               ? VMA_ALLOCATION_CREATE_HOST_ACCESS_SEQUENTIAL_WRITE_BIT
-                                                               : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
+        memory.flags = VMA_ALLOCATION_CREATE_MAPPED_BIT |
+                       (desc_.memory == Memory::Upload ? VMA_ALLOCATION_CREATE_HOST_ACCESS_SEQUENTIAL_WRITE_BIT
+                                                       : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
     }
     VmaAllocationInfo allocated{};
     vkCheck(vmaCreateBuffer(context.allocator(), &info, &memory, &handle_, &allocation_, &allocated), "buffer '",
@@ -116,7 +116,8 @@ Image::Image(Context& context, ImageDesc desc) : context_(&context), desc_(std::
     HELIO_CHECK(desc_.width > 0 && desc_.height > 0 && desc_.layers > 0, "image '", desc_.name, "' is empty");
     HELIO_CHECK(desc_.width <= limit && desc_.height <= limit && desc_.layers <= context.facts().maxImageArrayLayers,
                 "image '", desc_.name, "' of ", desc_.width, "x", desc_.height, "x", desc_.layers,
-                " is larger than the device allows (", limit, "x", limit, "x", context.facts().maxImageArrayLayers, ")");
+                " is larger than the device allows (", limit, "x", limit, "x", context.facts().maxImageArrayLayers,
+                ")");
     HELIO_CHECK(desc_.usage != 0, "image '", desc_.name, "' has no usage");
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -218,10 +219,12 @@ void Image::forget(VkPipelineStageFlags2 after) const
 u32 texelBytes(VkFormat format)
 {
     switch (format) {
-    case VK_FORMAT_R8_UNORM: return 1;
+    case VK_FORMAT_R8_UNORM:
+        return 1;
     case VK_FORMAT_R16_SFLOAT:
     case VK_FORMAT_R16_UINT:
-    case VK_FORMAT_D16_UNORM: return 2;
+    case VK_FORMAT_D16_UNORM:
+        return 2;
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_B8G8R8A8_UNORM:
@@ -232,14 +235,18 @@ u32 texelBytes(VkFormat format)
     case VK_FORMAT_R32_UINT:
     case VK_FORMAT_R32_SINT:
     case VK_FORMAT_R32_SFLOAT:
-    case VK_FORMAT_D32_SFLOAT: return 4;
+    case VK_FORMAT_D32_SFLOAT:
+        return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
     case VK_FORMAT_R16G16B16A16_UINT:
     case VK_FORMAT_R32G32_UINT:
-    case VK_FORMAT_R32G32_SFLOAT: return 8;
+    case VK_FORMAT_R32G32_SFLOAT:
+        return 8;
     case VK_FORMAT_R32G32B32A32_UINT:
-    case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
-    default: return 0;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return 16;
+    default:
+        return 0;
     }
 }
 

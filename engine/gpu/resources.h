@@ -13,8 +13,8 @@ namespace helio {
 
 class Context;
 
-/// How a resource was used last, which is all that the next barrier needs to know. Kept by the resource itself, so that it
-/// survives from graph to graph and from frame to frame.
+/// How a resource was used last, which is all that the next barrier needs to know. Kept by the resource itself, so that
+/// it survives from graph to graph and from frame to frame.
 struct AccessState
 {
     // The last write (a layout change counts) and the accesses through which it was made.
@@ -29,7 +29,8 @@ struct AccessState
     bool operator==(const AccessState&) const = default;
 };
 
-enum class Memory : u32 {
+enum class Memory : u32
+{
     Device,   // not mapped; filled by upload() or by passes
     Upload,   // mapped, written by the host in order
     Readback, // mapped, read by the host at random
@@ -42,8 +43,8 @@ struct BufferDesc
     Memory memory = Memory::Device;
 };
 
-/// A buffer with its memory. Every buffer may serve as storage, texel, vertex, index, indirect and copy buffer. Move-only;
-/// an empty one (default constructed) has no handle.
+/// A buffer with its memory. Every buffer may serve as storage, texel, vertex, index, indirect and copy buffer.
+/// Move-only; an empty one (default constructed) has no handle.
 class Buffer
 {
 public:
@@ -59,7 +60,8 @@ public:
     u64 bytes() const { return desc_.bytes; }
     /// Host address of Upload and Readback buffers, valid while the buffer lives; null for Device.
     void* mapped() const { return mapped_; }
-    /// Makes device writes visible to the host (after the fence) and host writes to the device, on memory that needs it.
+    /// Makes device writes visible to the host (after the fence) and host writes to the device, on memory that needs
+    /// it.
     void invalidate() const;
     void flush() const;
     /// View for samplerBuffer bindings, kept with the buffer. Checked: the element count is within the device's limit.
@@ -85,7 +87,7 @@ struct ImageDesc
     u32 width = 0;  // texels, > 0
     u32 height = 0; // texels, > 0
     VkFormat format = VK_FORMAT_UNDEFINED;
-    u32 layers = 1;            // > 1: 2-D array
+    u32 layers = 1;              // > 1: 2-D array
     VkImageUsageFlags usage = 0; // 0: a graph derives it from the declared uses; outside of graphs it must be given
 };
 
@@ -116,7 +118,8 @@ public:
     const ImageDesc& desc() const { return desc_; }
     bool isDepth() const;
     VkImageAspectFlags aspect() const;
-    /// View of a part, kept with the image. Images with several layers are viewed as 2D_ARRAY unless one layer is asked for.
+    /// View of a part, kept with the image. Images with several layers are viewed as 2D_ARRAY unless one layer is asked
+    /// for.
     VkImageView view(ImagePart part = {}) const;
     /// The contents are gone and whoever writes next must wait for `after` (a swapchain image that was just acquired).
     void forget(VkPipelineStageFlags2 after) const;

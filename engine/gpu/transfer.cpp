@@ -93,7 +93,8 @@ void uploadImage(Context& context, const Image& to, std::span<const std::byte> t
     recorder.begin();
     changeLayout(recorder, to, to.state().layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkBufferImageCopy copy = layerCopy(to, layer);
-    vkCmdCopyBufferToImage(recorder.commands(), staging.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    vkCmdCopyBufferToImage(recorder.commands(), staging.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                           &copy);
     recorder.submitAndWait();
     noteCopyTo(to.state(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
 }
@@ -113,8 +114,8 @@ std::vector<std::byte> download(Context& context, const Buffer& from, u64 offset
         fullBarrier(recorder);
         const VkBufferCopy copy{offset + at, 0, part};
         vkCmdCopyBuffer(recorder.commands(), from.handle(), staging.handle(), 1, &copy);
-        recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
-                         VK_ACCESS_2_HOST_READ_BIT);
+        recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                         VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
         recorder.submitAndWait();
         staging.invalidate();
         std::memcpy(bytes.data() + at, staging.mapped(), part);
@@ -135,7 +136,8 @@ std::vector<std::byte> downloadImage(Context& context, const Image& from, u32 la
     const VkImageLayout layout = from.state().layout;
     changeLayout(recorder, from, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy copy = layerCopy(from, layer);
-    vkCmdCopyImageToBuffer(recorder.commands(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.handle(), 1, &copy);
+    vkCmdCopyImageToBuffer(recorder.commands(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.handle(),
+                           1, &copy);
     changeLayout(recorder, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
     recorder.barrier(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
                      VK_ACCESS_2_HOST_READ_BIT);

@@ -19,7 +19,8 @@ template <class T> void upload(Context& context, const Buffer& to, const std::ve
     upload(context, to, std::as_bytes(std::span(items)), offset);
 }
 
-/// A device buffer that holds these items; an empty list makes a buffer of one zero item, because Vulkan has no empty ones.
+/// A device buffer that holds these items; an empty list makes a buffer of one zero item, because Vulkan has no empty
+/// ones.
 template <class T> Buffer makeBuffer(Context& context, std::string name, std::span<const T> items)
 {
     const u64 bytes = items.empty() ? sizeof(T) : items.size_bytes();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <memory>
 #include <string>
 #include <vulkan/vulkan.h>
 
@@ -10,10 +11,10 @@ namespace helio {
 /// "VK_ERROR_DEVICE_LOST" and so on; a number for codes that have no name here.
 std::string vkResultName(VkResult result);
 
-/// Text that failDevice prints after its message, e.g. the dump of the graph that ran last.
-void setFailureNote(std::string note);
+/// Text that failDevice prints when the device was lost: the dump of the graph that was recorded last. May be null.
+void setFailureNote(std::shared_ptr<const std::string> note);
 
-/// Prints what failed and why (and the failure note when the device was lost) and ends the process with exit code 2
+/// Prints what failed and why and ends the process with exit code 2
 /// without running destructors: after a lost device they could hang.
 [[noreturn]] void failDevice(VkResult result, const std::string& what);
 

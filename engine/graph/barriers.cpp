@@ -13,8 +13,9 @@ constexpr VkPipelineStageFlags2 kDepthTests =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 constexpr VkPipelineStageFlags2 kColor = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
 constexpr VkPipelineStageFlags2 kTransfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-// Texel buffers count as sampled: a buffer's reads always carry both, so that one stage has one set of read accesses and the
-// union kept in AccessState never claims more than was made visible. Images change layout between the two instead.
+// Texel buffers count as sampled: a buffer's reads always carry both, so that one stage has one set of read accesses
+// and the union kept in AccessState never claims more than was made visible. Images change layout between the two
+// instead.
 constexpr VkAccessFlags2 kShaderRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kShaderWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 constexpr VkAccessFlags2 kColorRead = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT;
@@ -44,10 +45,11 @@ constexpr UseInfo kUses[] = {
     {"FragmentRead", kFragment, kShaderRead, 0, kNoLayout, 0, true, true},
     {"VertexAndFragmentRead", kVertex | kFragment, kShaderRead, 0, kNoLayout, 0, true, true},
     {"FragmentSample", kFragment, kShaderRead, 0, kSampledLayout, kSampledUsage, false, true},
-    {"VertexAttribute", VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0, kNoLayout,
-     0, true, true},
+    {"VertexAttribute", VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0,
+     kNoLayout, 0, true, true},
     {"Index", VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, kNoLayout, 0, true, true},
-    {"Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoLayout, 0, true, true},
+    {"Indirect", VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoLayout, 0, true,
+     true},
     {"ColorTarget", kColor, 0, kColorWrite, kColorLayout, kColorUsage, false, false},
     {"ColorTargetLoad", kColor, kColorRead, kColorWrite, kColorLayout, kColorUsage, false, true},
     {"DepthTarget", kDepthTests, kDepthRead, kDepthWrite, kDepthLayout, kDepthUsage, false, false},
@@ -116,7 +118,8 @@ std::optional<Barrier> advance(AccessState& state, const Access& access)
         state.readStages |= access.stages;
         state.readAccess |= access.reads;
     } else {
-        // A write (or a change of layout) waits for the last write and for all reads since; reads leave nothing to flush.
+        // A write (or a change of layout) waits for the last write and for all reads since; reads leave nothing to
+        // flush.
         barrier.srcStages = state.writeStages | state.readStages;
         barrier.srcAccess = state.writeAccess;
         needed = needed || barrier.srcStages != 0;
@@ -139,7 +142,8 @@ std::optional<Barrier> advance(AccessState& state, const Access& access)
     return barrier;
 }
 
-std::vector<std::vector<Barrier>> deriveBarriers(std::span<AccessState> states, std::span<const std::vector<Access>> passes)
+std::vector<std::vector<Barrier>> deriveBarriers(std::span<AccessState> states,
+                                                 std::span<const std::vector<Access>> passes)
 {
     std::vector<std::vector<Barrier>> barriers(passes.size());
     for (size_t pass = 0; pass < passes.size(); ++pass) {

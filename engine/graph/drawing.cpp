@@ -4,7 +4,8 @@
 namespace helio {
 namespace {
 
-VkRenderingAttachmentInfo attachmentInfo(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load, VkAttachmentStoreOp store)
+VkRenderingAttachmentInfo attachmentInfo(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,
+                                         VkAttachmentStoreOp store)
 {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
@@ -23,11 +24,11 @@ void PassContext::render(const RenderTargets& targets, const std::function<void(
     std::vector<VkRenderingAttachmentInfo> colors;
     for (const ColorAttachment& target : targets.colors) {
         checkDeclared(target.image.index, {Use::ColorTarget, Use::ColorTargetLoad});
-        HELIO_CHECK(target.clear || declares(target.image.index, {Use::ColorTargetLoad}), "'", image(target.image).desc().name,
-                    "' is neither cleared nor declared ColorTargetLoad");
-        colors.push_back(attachmentInfo(image(target.image).view({target.layer, 1, false}), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                        target.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
-                                        VK_ATTACHMENT_STORE_OP_STORE));
+        HELIO_CHECK(target.clear || declares(target.image.index, {Use::ColorTargetLoad}), "'",
+                    image(target.image).desc().name, "' is neither cleared nor declared ColorTargetLoad");
+        colors.push_back(attachmentInfo(
+            image(target.image).view({target.layer, 1, false}), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+            target.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_STORE));
         if (target.clear) colors.back().clearValue.color = *target.clear;
     }
     VkRenderingAttachmentInfo depth{};
@@ -38,10 +39,11 @@ void PassContext::render(const RenderTargets& targets, const std::function<void(
         checkDeclared(index, {Use::DepthTarget, Use::DepthTargetLoad, Use::DepthTest});
         HELIO_CHECK(targets.depth->clear ? writes : !declares(index, {Use::DepthTarget}), "'", texture.desc().name,
                     "': a cleared depth target is declared DepthTarget, a kept one DepthTargetLoad or DepthTest");
-        depth = attachmentInfo(texture.view({targets.depth->layer, 1, false}),
-                               writes ? VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
-                               targets.depth->clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
-                               writes ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE);
+        depth =
+            attachmentInfo(texture.view({targets.depth->layer, 1, false}),
+                           writes ? VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+                           targets.depth->clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+                           writes ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_NONE);
         if (targets.depth->clear) depth.clearValue.depthStencil = {*targets.depth->clear, 0};
     }
     const ImageDesc& first = image(targets.colors.empty() ? targets.depth->image : targets.colors[0].image).desc();
@@ -67,7 +69,8 @@ void PassContext::render(const RenderTargets& targets, const std::function<void(
 void Drawing::pipeline(GraphicsPipelineDesc desc)
 {
     desc.colors.clear();
-    for (const ColorAttachment& target : targets_.colors) desc.colors.push_back(context_.image(target.image).desc().format);
+    for (const ColorAttachment& target : targets_.colors)
+        desc.colors.push_back(context_.image(target.image).desc().format);
     desc.depth = targets_.depth ? context_.image(targets_.depth->image).desc().format : VK_FORMAT_UNDEFINED;
     pipeline_ = &context_.context().pipelines().graphics(desc);
     if (pipeline_->bindings.empty()) context_.recorder().bind(*pipeline_, {});
@@ -124,11 +127,13 @@ void Drawing::drawIndexedIndirect(Ref<Buffer> arguments, u64 offset, u32 count)
     context_.checkDeclared(arguments.index, {Use::Indirect});
     constexpr u32 kStride = sizeof(VkDrawIndexedIndirectCommand);
     const Buffer& buffer = context_.buffer(arguments);
-    HELIO_CHECK(offset + u64(count) * kStride <= buffer.bytes(), count, " draws at ", offset, " of '", buffer.desc().name, "'");
+    HELIO_CHECK(offset + u64(count) * kStride <= buffer.bytes(), count, " draws at ", offset, " of '",
+                buffer.desc().name, "'");
     const bool multi = context_.context().facts().multiDrawIndirect;
     const u32 calls = multi ? 1 : count;
     for (u32 i = 0; i < calls; ++i) {
-        vkCmdDrawIndexedIndirect(context_.commands(), buffer.handle(), offset + u64(i) * kStride, multi ? count : 1, kStride);
+        vkCmdDrawIndexedIndirect(context_.commands(), buffer.handle(), offset + u64(i) * kStride, multi ? count : 1,
+                                 kStride);
     }
 }
 

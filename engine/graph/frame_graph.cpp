@@ -159,7 +159,8 @@ void FrameGraph::rebind(Ref<Image> imported, const Image& image)
     Impl::Resource& resource = impl_->resources[imported.index];
     HELIO_CHECK(resource.image && resource.imported, "'", resource.name, "' is not an imported image");
     HELIO_CHECK(image.desc().format == resource.imageDesc.format && image.desc().width == resource.imageDesc.width &&
-                    image.desc().height == resource.imageDesc.height && image.desc().layers == resource.imageDesc.layers,
+                    image.desc().height == resource.imageDesc.height &&
+                    image.desc().layers == resource.imageDesc.layers,
                 "'", image.desc().name, "' differs from '", resource.name, "' in format or size");
     resource.texture = &image;
 }
@@ -209,6 +210,7 @@ Status FrameGraph::compile(Context& context)
         }
     }
     impl_->compiled = std::move(*plan);
+    impl_->note = std::make_shared<const std::string>(dump());
     return Nothing{};
 }
 
@@ -216,7 +218,7 @@ void FrameGraph::execute(Recorder& recorder, bool timings)
 {
     HELIO_CHECK(impl_->compiled, "graph '", impl_->name, "' is not compiled");
     const GraphPlan& plan = *impl_->compiled;
-    setFailureNote(dump());
+    setFailureNote(impl_->note);
 
     std::vector<AccessState> states(impl_->resources.size());
     std::vector<bool> touched(impl_->resources.size(), false);
@@ -242,8 +244,8 @@ void FrameGraph::execute(Recorder& recorder, bool timings)
         recordBarriers(recorder, barriers[i], bufferOf, imageOf);
         if (timings && barriers[i].empty()) {
             // Tiled software drivers bill a timestamp to the work that is still being binned: only a barrier ends that.
-            recorder.barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                             VK_ACCESS_2_NONE);
+            recorder.barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE,
+                             VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE);
         }
         recorder.beginLabel(pass.name);
         PassContext context(*this, plan.passes[i], recorder);
@@ -261,7 +263,8 @@ const Buffer& FrameGraph::buffer(Ref<Buffer> ref) const
 {
     HELIO_CHECK(ref.index < impl_->resources.size() && !impl_->resources[ref.index].image, ref.index);
     const Impl::Resource& resource = impl_->resources[ref.index];
-    HELIO_CHECK(resource.buffer, "buffer '", resource.name, "' is not allocated: the graph is not compiled, or no live pass uses it");
+    HELIO_CHECK(resource.buffer, "buffer '", resource.name,
+                "' is not allocated: the graph is not compiled, or no live pass uses it");
     return *resource.buffer;
 }
 
@@ -269,7 +272,8 @@ const Image& FrameGraph::image(Ref<Image> ref) const
 {
     HELIO_CHECK(ref.index < impl_->resources.size() && impl_->resources[ref.index].image, ref.index);
     const Impl::Resource& resource = impl_->resources[ref.index];
-    HELIO_CHECK(resource.texture, "image '", resource.name, "' is not allocated: the graph is not compiled, or no live pass uses it");
+    HELIO_CHECK(resource.texture, "image '", resource.name,
+                "' is not allocated: the graph is not compiled, or no live pass uses it");
     return *resource.texture;
 }
 
@@ -290,8 +294,8 @@ std::string FrameGraph::dump() const
     for (u32 i = 0; i < impl_->resources.size(); ++i) {
         const Impl::Resource& resource = impl_->resources[i];
         for (u32 version = 0; version <= resource.newestVersion(); ++version) {
-            out += concat("  r", i, "v", version, " [label=\"", resource.name, " ", version, resource.imported ? " (imported)" : "",
-                          "\"];\n");
+            out += concat("  r", i, "v", version, " [label=\"", resource.name, " ", version,
+                          resource.imported ? " (imported)" : "", "\"];\n");
             if (version > 0) out += concat("  r", i, "v", version - 1, " -> r", i, "v", version, " [style=dotted];\n");
         }
     }

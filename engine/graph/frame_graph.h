@@ -4,10 +4,13 @@
 //     auto to = graph.addPass("gather", [&](PassBuilder& pass) {         // setup: runs now, may capture by reference
 //         pass.read(links, Use::ComputeRead);
 //         const auto out = pass.write(pass.create(BufferDesc{"irradiance", bytes}), Use::ComputeWrite);
-//         pass.record([=](PassContext& ctx) {                             // record: runs at execute, captures by value only
-//             ctx.dispatch(shaders::kGatherComp, {texels(0, links, VK_FORMAT_R32G32_UINT), storage(1, out)}, params, groups);
+//         pass.record([=](PassContext& ctx) {                             // record: runs at execute, captures by value
+//         only
+//             ctx.dispatch(shaders::kGatherComp, {texels(0, links, VK_FORMAT_R32G32_UINT), storage(1, out)}, params,
+//             groups);
 //         });
-//         return out;                                                     // the new version: the only name of the result
+//         return out;                                                     // the new version: the only name of the
+//         result
 //     });
 //
 // Passes run in the order of their declaration. compile once, execute every frame.
@@ -52,8 +55,8 @@ public:
     Ref<Buffer> import(const Buffer& buffer);
     Ref<Image> import(const Image& image);
 
-    /// Declares a read of this version and returns it. A pass may declare several uses of one resource (for images: of one
-    /// layout).
+    /// Declares a read of this version and returns it. A pass may declare several uses of one resource (for images: of
+    /// one layout).
     Ref<Buffer> read(Ref<Buffer> ref, Use use);
     Ref<Image> read(Ref<Image> ref, Use use);
     /// Declares a write and returns the new version; the old one is dead for all later passes.
@@ -97,8 +100,8 @@ public:
         return std::forward<Setup>(setup)(builder);
     }
 
-    /// A resource that outlives the graph (and must). Its last access is kept with the resource, so several graphs may use
-    /// it in turn. Importing it again names its newest version.
+    /// A resource that outlives the graph (and must). Its last access is kept with the resource, so several graphs may
+    /// use it in turn. Importing it again names its newest version.
     Ref<Buffer> import(const Buffer& buffer);
     Ref<Image> import(const Image& image);
     /// Replaces an imported resource by another of the same description (a swapchain image), between executions.
@@ -110,12 +113,13 @@ public:
 
     /// Checks the declarations and culls what nobody needs; no device. Errors, each a sentence with pass and resource:
     /// reading what nobody wrote, using a version that a later one replaced, two writers of one version, a reference of
-    /// another graph, one image in two layouts in one pass, a use that does not fit the resource, a pass without record.
+    /// another graph, one image in two layouts in one pass, a use that does not fit the resource, a pass without
+    /// record.
     Result<GraphPlan> plan() const;
     /// plan, then allocates the graph's own resources.
     Status compile(Context& context);
-    /// Records all live passes with their barriers. compile must have succeeded. With `timings`, each pass gets a mark by
-    /// its name (Recorder::times), and passes do not overlap.
+    /// Records all live passes with their barriers. compile must have succeeded. With `timings`, each pass gets a mark
+    /// by its name (Recorder::times), and passes do not overlap.
     void execute(Recorder& recorder, bool timings = false);
 
     /// After compile: the resource behind a reference (to download a result, for example).

@@ -42,11 +42,12 @@ struct FrameGraph::Impl
     std::string name;
     std::vector<Pass> passes;
     std::vector<Resource> resources;
-    std::vector<Declared> finals; // uses after the last pass
+    std::vector<Declared> finals;      // uses after the last pass
     std::vector<std::string> mistakes; // in the order of declaration; compile reports the first
     std::vector<std::unique_ptr<Buffer>> ownBuffers;
     std::vector<std::unique_ptr<Image>> ownImages;
     std::optional<GraphPlan> compiled;
+    std::shared_ptr<const std::string> note; // dump of the compiled graph
 
     u32 addResource(Resource resource);
     /// False, and a mistake noted, if the reference is not of this graph or not of this kind.

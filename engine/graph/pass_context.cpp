@@ -79,18 +79,21 @@ std::vector<Bound> PassContext::resolve(std::span<const Binding> bindings) const
     std::vector<Bound> bounds;
     for (const Binding& binding : bindings) {
         Bound bound = binding.how;
-        if (const auto* asBuffer = std::get_if<Ref<Buffer>>(&binding.what)) bound.buffer = &buffer(*asBuffer);
-        else bound.image = &image(std::get<Ref<Image>>(binding.what));
+        if (const auto* asBuffer = std::get_if<Ref<Buffer>>(&binding.what))
+            bound.buffer = &buffer(*asBuffer);
+        else
+            bound.image = &image(std::get<Ref<Image>>(binding.what));
         bounds.push_back(bound);
     }
     return bounds;
 }
 
-void PassContext::dispatchBytes(const ShaderCode& shader, std::span<const Binding> bindings, std::span<const std::byte> params,
-                                Groups groups, std::vector<SpecConstant> constants)
+void PassContext::dispatchBytes(const ShaderCode& shader, std::span<const Binding> bindings,
+                                std::span<const std::byte> params, Groups groups, std::vector<SpecConstant> constants)
 {
     const u32 limit = context().facts().maxDispatchGroups;
-    HELIO_CHECK(groups.x <= limit, "'", shader.name, "' dispatches ", groups.x, " groups in x, the device allows ", limit);
+    HELIO_CHECK(groups.x <= limit, "'", shader.name, "' dispatches ", groups.x, " groups in x, the device allows ",
+                limit);
     const Pipeline& pipeline = context().pipelines().compute({&shader, std::move(constants)});
     recorder_.bind(pipeline, resolve(bindings));
     recorder_.push(pipeline, params);
@@ -99,10 +102,11 @@ void PassContext::dispatchBytes(const ShaderCode& shader, std::span<const Bindin
 
 void PassContext::barrier()
 {
-    constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    constexpr VkPipelineStageFlags2 kStages =
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT |
-                                      VK_ACCESS_2_TRANSFER_READ_BIT;
+    constexpr VkAccessFlags2 kReads =
+        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
     recorder_.barrier(kStages, kWrites, kStages, kReads | kWrites);
 }
 
@@ -133,13 +137,14 @@ void PassContext::copy(Ref<Image> from, u32 layer, Ref<Buffer> to, u64 toOffset)
     const Buffer& target = graph_.buffer(to);
     const ImageDesc& desc = source.desc();
     const u64 bytes = u64(desc.width) * desc.height * texelBytes(desc.format);
-    HELIO_CHECK(layer < desc.layers && toOffset + bytes <= target.bytes(), "layer ", layer, " of '", desc.name, "' (", bytes,
-                " bytes) at ", toOffset, " of '", target.desc().name, "'");
+    HELIO_CHECK(layer < desc.layers && toOffset + bytes <= target.bytes(), "layer ", layer, " of '", desc.name, "' (",
+                bytes, " bytes) at ", toOffset, " of '", target.desc().name, "'");
     VkBufferImageCopy region{};
     region.bufferOffset = toOffset;
     region.imageSubresource = {source.aspect(), 0, layer, 1};
     region.imageExtent = {desc.width, desc.height, 1};
-    vkCmdCopyImageToBuffer(commands(), source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(), 1, &region);
+    vkCmdCopyImageToBuffer(commands(), source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(), 1,
+                           &region);
 }
 
 Ref<Buffer> addFill(FrameGraph& graph, Ref<Buffer> buffer, u32 value)

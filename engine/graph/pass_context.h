@@ -19,8 +19,8 @@ struct Binding
 
 /// Storage buffer; a range needs an offset that is a multiple of 256 bytes.
 Binding storage(u32 binding, Ref<Buffer> buffer, u64 offset = 0, u64 bytes = 0);
-/// Read-only buffer that the shader reads as a texel buffer, or as a storage buffer in its fallback variant: which of the
-/// two follows from the shader.
+/// Read-only buffer that the shader reads as a texel buffer, or as a storage buffer in its fallback variant: which of
+/// the two follows from the shader.
 Binding texels(u32 binding, Ref<Buffer> buffer, VkFormat format);
 /// Storage image (image2D and its kin).
 Binding storage(u32 binding, Ref<Image> image, ImagePart part = {});
@@ -89,8 +89,8 @@ private:
     const Pipeline* pipeline_ = nullptr;
 };
 
-/// Given to a pass's record function. Every reference must have been declared by this pass: anything else aborts with the
-/// names of pass and resource.
+/// Given to a pass's record function. Every reference must have been declared by this pass: anything else aborts with
+/// the names of pass and resource.
 class PassContext
 {
 public:
@@ -102,12 +102,12 @@ public:
 
     /// One dispatch. Push constants must have exactly the size of the shader's block.
     template <class Params>
-    void dispatch(const ShaderCode& shader, std::initializer_list<Binding> bindings, const Params& params, Groups groups,
-                  std::vector<SpecConstant> constants = {})
+    void dispatch(const ShaderCode& shader, std::initializer_list<Binding> bindings, const Params& params,
+                  Groups groups, std::vector<SpecConstant> constants = {})
     {
         static_assert(std::is_trivially_copyable_v<Params> && sizeof(Params) <= 128);
-        dispatchBytes(shader, std::span(bindings.begin(), bindings.size()), std::as_bytes(std::span(&params, 1)), groups,
-                      std::move(constants));
+        dispatchBytes(shader, std::span(bindings.begin(), bindings.size()), std::as_bytes(std::span(&params, 1)),
+                      groups, std::move(constants));
     }
     /// A dispatch without push constants.
     void dispatch(const ShaderCode& shader, std::initializer_list<Binding> bindings, Groups groups,
@@ -135,8 +135,7 @@ public:
 private:
     friend class FrameGraph;
     friend class Drawing;
-    PassContext(const FrameGraph& graph, u32 pass, Recorder& recorder)
-        : graph_(graph), pass_(pass), recorder_(recorder)
+    PassContext(const FrameGraph& graph, u32 pass, Recorder& recorder) : graph_(graph), pass_(pass), recorder_(recorder)
     {
     }
     /// Did this pass declare the resource (with one of these uses, if there are any)?

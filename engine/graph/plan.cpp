@@ -60,8 +60,9 @@ u32 FrameGraph::Impl::declareWrite(u32 pass, u32 index, u32 version, bool image,
         mistakes.push_back(concat(user, " writes '", resource.name, "' with the use ", useInfo(use).name,
                                   ", which only reads: declare it with read"));
     } else if (version != resource.newestVersion()) {
-        mistakes.push_back(concat("pass '", passes[resource.writers[version + 1]].name, "' and ", user, " both write version ",
-                                  version, " of '", resource.name, "': use the reference that the first write returned"));
+        mistakes.push_back(concat("pass '", passes[resource.writers[version + 1]].name, "' and ", user,
+                                  " both write version ", version, " of '", resource.name,
+                                  "': use the reference that the first write returned"));
     } else if (version == 0 && !resource.imported && useInfo(use).needsContents) {
         mistakes.push_back(concat(user, " uses '", resource.name, "' as ", useInfo(use).name,
                                   ", which reads it first, but no pass has written it"));
@@ -115,8 +116,9 @@ Result<std::vector<Access>> FrameGraph::Impl::accessesOf(const std::vector<Decla
         const auto known = std::find_if(accesses.begin(), accesses.end(), same);
         if (known != accesses.end()) {
             if (!mergeAccess(*known, access)) {
-                return Error{concat(user, " uses image '", resources[use.resource].name, "' in two layouts at once; the second is ",
-                                    useInfo(use.use).name, ": split the pass")};
+                return Error{concat(user, " uses image '", resources[use.resource].name,
+                                    "' in two layouts at once; the second is ", useInfo(use.use).name,
+                                    ": split the pass")};
             }
             continue;
         }
@@ -140,7 +142,8 @@ Result<GraphPlan> FrameGraph::Impl::makePlan() const
     const std::vector<bool> live = livePasses();
     for (u32 i = 0; i < passes.size(); ++i) {
         if (!live[i]) continue;
-        Result<std::vector<Access>> accesses = accessesOf(passes[i].uses, concat("pass '", passes[i].name, "'"), touched);
+        Result<std::vector<Access>> accesses =
+            accessesOf(passes[i].uses, concat("pass '", passes[i].name, "'"), touched);
         if (!accesses) return accesses.error();
         plan.passes.push_back(i);
         plan.accesses.push_back(std::move(*accesses));

@@ -9,8 +9,8 @@
 
 namespace helio {
 
-LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light, bool emission,
-                        bool warm)
+LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light,
+                        bool emission, bool warm)
 {
     light = graph.addPass("first light", [&](PassBuilder& pass) {
         const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
@@ -22,9 +22,9 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
         const gpu::FirstLightParams params{tile.patchCount, emission ? 1.0f : 0.0f, warm ? 1.0f : 0.0f, 0};
         pass.record([=](PassContext& ctx) {
             ctx.dispatch(shaders::kFirstLightComp,
-                         {storage(gpu::kFirstPatches, patches), storage(gpu::kFirstSun, sun), storage(gpu::kFirstSky, sky),
-                          storage(gpu::kFirstIndirect, indirect), storage(gpu::kFirstB0, out.b0),
-                          storage(gpu::kFirstRadiosity, out.radiosity)},
+                         {storage(gpu::kFirstPatches, patches), storage(gpu::kFirstSun, sun),
+                          storage(gpu::kFirstSky, sky), storage(gpu::kFirstIndirect, indirect),
+                          storage(gpu::kFirstB0, out.b0), storage(gpu::kFirstRadiosity, out.radiosity)},
                          params, groupsFor(params.patchCount, gpu::kSolveGroup));
         });
         return out;
@@ -44,7 +44,8 @@ Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
                 ctx.dispatch(shaders::kPullComp,
                              {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
                               storage(gpu::kPullValues, out)},
-                             gpu::LevelParams{level.first, level.count, patchCount}, groupsFor(level.count, gpu::kSolveGroup));
+                             gpu::LevelParams{level.first, level.count, patchCount},
+                             groupsFor(level.count, gpu::kSolveGroup));
                 ctx.barrier();
             }
         });
@@ -63,7 +64,8 @@ Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
         pass.record([=, patchCount = tile.patchCount](PassContext& ctx) {
             for (const TreeLevel& level : levels) {
                 ctx.dispatch(shaders::kPushComp, {storage(gpu::kPushParents, parents), storage(gpu::kPushValues, out)},
-                             gpu::LevelParams{level.first, level.count, patchCount}, groupsFor(level.count, gpu::kSolveGroup));
+                             gpu::LevelParams{level.first, level.count, patchCount},
+                             groupsFor(level.count, gpu::kSolveGroup));
                 ctx.barrier();
             }
         });
@@ -106,7 +108,8 @@ u32 updateGroups(const TileTables& tile)
     return (tile.patchCount + kPatches - 1) / kPatches;
 }
 
-UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials, Ref<Buffer> residual)
+UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
+                    Ref<Buffer> residual)
 {
     light.irradiance = addGather(graph, tile, light.radiosity, light.irradiance);
     light.irradiance = addPush(graph, tile, light.irradiance);

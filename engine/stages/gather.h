@@ -21,9 +21,10 @@ struct LightRefs
     Ref<Buffer> irradiance; ///< a node: what arrives over links; at the patches E_indirect
 };
 
-/// Before the sweeps: B0, and B = B0 + rho E_indirect with the E_indirect of the last solve (warm) or none (cold), pulled up.
-LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light, bool emission,
-                        bool warm);
+/// Before the sweeps: B0, and B = B0 + rho E_indirect with the E_indirect of the last solve (warm) or none (cold),
+/// pulled up.
+LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light,
+                        bool emission, bool warm);
 
 /// X_parent = sum A_child X_child / A_parent, level by level, in place (vec4 a node).
 [[nodiscard]] Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values,
@@ -31,7 +32,8 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
 /// E_child += E_parent, level by level, in place (vec4 a node).
 [[nodiscard]] Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values);
 /// E_i = sum F_ij B_j over the links of row i, at every node.
-[[nodiscard]] Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity, Ref<Buffer> irradiance);
+[[nodiscard]] Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity,
+                                    Ref<Buffer> irradiance);
 
 struct UpdateRefs
 {
@@ -40,7 +42,8 @@ struct UpdateRefs
 };
 /// One Jacobi sweep: gather, push, B = B0 + rho E at the patches, pull; and the sums of the residual of the B before.
 /// partials: scratch, updateGroups(tile) ResidualRecords.
-UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials, Ref<Buffer> residual);
+UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
+                    Ref<Buffer> residual);
 
 /// Work groups of the update, one partial sum each.
 u32 updateGroups(const TileTables& tile);

@@ -14,8 +14,9 @@ Ref<Buffer> addHistogram(FrameGraph& graph, Ref<Image> ids, Ref<Buffer> counts, 
         const auto from = pass.read(ids, Use::ComputeRead);
         const auto to = pass.write(counts, Use::ComputeReadWrite);
         pass.record([=, params = gpu::HistogramParams{width, height, patchCount}](PassContext& ctx) {
-            ctx.dispatch(shaders::kHistogramComp, {storage(gpu::kHistogramIds, from), storage(gpu::kHistogramCounts, to)},
-                         params, groupsFor2D(width, height, gpu::kHistogramGroup, gpu::kHistogramRun),
+            ctx.dispatch(shaders::kHistogramComp,
+                         {storage(gpu::kHistogramIds, from), storage(gpu::kHistogramCounts, to)}, params,
+                         groupsFor2D(width, height, gpu::kHistogramGroup, gpu::kHistogramRun),
                          {{0, options.aggregate ? 1u : 0u}});
         });
         return to;

@@ -32,7 +32,7 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
     return graph.addPass("forward", [&](PassBuilder& pass) {
         const CityMesh mesh(pass, tile, list);
         const auto patches = pass.read(pass.import(tile.patches), Use::FragmentRead);
-        const auto view = pass.read(in.view, Use::VertexAndFragmentRead);
+        const auto view = pass.read(in.view, Use::FragmentRead);
         const auto shadow = pass.read(in.shadow, Use::FragmentSample);
         const auto sun = pass.read(in.sun, Use::FragmentRead);
         const auto sky = pass.read(in.sky, Use::FragmentRead);
@@ -40,25 +40,34 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
         const auto radiosity = pass.read(in.radiosity, Use::FragmentRead);
         const auto corners = pass.read(in.cornerOfVertex, Use::VertexRead);
         const auto smooth = pass.read(in.smooth, Use::VertexRead);
-        const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget), pass.write(targets.depth, Use::DepthTarget)};
-        pass.record([=, mode = in.mode](PassContext& ctx) {
+        const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget),
+                               pass.write(targets.depth, Use::DepthTarget)};
+        pass.record([=, params = in.params, mode = in.mode, interpolate = in.interpolate,
+                     emitters = in.emitters](PassContext& ctx) {
             RenderTargets to;
             to.colors = {{out.radiance, VkClearColorValue{}, 0}};
             to.depth = {out.depth, 0.0f, 0};
             ctx.render(to, [&](Drawing& drawing) {
-                GraphicsPipelineDesc city;
-                city.vertex = &shaders::kForwardVert;
-                city.fragment = &shaders::kForwardFrag;
-                city.depthCompare = VK_COMPARE_OP_GREATER;
-                city.constants = {{0, mode}};
-                CityMesh::describe(city, true);
-                drawing.pipeline(std::move(city));
-                drawing.bind({storage(gpu::kForwardView, view), sampled(gpu::kForwardShadow, shadow, Sampler::Shadow, {0, 0, true}),
-                              storage(gpu::kForwardPatches, patches), storage(gpu::kForwardSun, sun),
-                              storage(gpu::kForwardSky, sky), storage(gpu::kForwardIndirect, indirect),
-                              storage(gpu::kForwardRadiosity, radiosity), storage(gpu::kForwardCorners, corners),
-                              storage(gpu::kForwardSmooth, smooth)});
-                mesh.draw(ctx, drawing);
+                const auto drawPart = [&](bool smoothed, u32 first, u32 count) {
+                    if (count == 0) return;
+                    GraphicsPipelineDesc city;
+                    city.vertex = &shaders::kForwardVert;
+                    city.fragment = &shaders::kForwardFrag;
+                    city.depthCompare = VK_COMPARE_OP_GREATER;
+                    city.constants = {{0, mode}, {1, smoothed}, {2, emitters}};
+                    CityMesh::describe(city, true);
+                    drawing.pipeline(std::move(city));
+                    drawing.bind({storage(gpu::kForwardView, view),
+                                  sampled(gpu::kForwardShadow, shadow, Sampler::Shadow, {0, 0, true}),
+                                  storage(gpu::kForwardPatches, patches), storage(gpu::kForwardSun, sun),
+                                  storage(gpu::kForwardSky, sky), storage(gpu::kForwardIndirect, indirect),
+                                  storage(gpu::kForwardRadiosity, radiosity), storage(gpu::kForwardCorners, corners),
+                                  storage(gpu::kForwardSmooth, smooth)});
+                    drawing.push(params);
+                    mesh.draw(ctx, drawing, first, count);
+                };
+                drawPart(interpolate, 0, mesh.staticCount());
+                drawPart(false, mesh.staticCount(), mesh.count() - mesh.staticCount());
 
                 // The background lies at depth 0, where nothing was drawn.
                 GraphicsPipelineDesc background;

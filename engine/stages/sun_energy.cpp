@@ -27,8 +27,8 @@ SunEnergyRefs addSunEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer
         pass.record([=](PassContext& ctx) {
             ctx.dispatch(
                 shaders::kSunDensityComp,
-                {storage(gpu::kSunCounts, from), storage(gpu::kSunPatches, patches), storage(gpu::kSunDensity, out)}, params,
-                groups);
+                {storage(gpu::kSunCounts, from), storage(gpu::kSunPatches, patches), storage(gpu::kSunDensity, out)},
+                params, groups);
         });
         return out;
     });
@@ -38,7 +38,8 @@ SunEnergyRefs addSunEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer
         const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
         const auto nodes = pass.read(pass.import(tile.nodes), Use::ComputeRead);
         const auto from = pass.read(density, Use::ComputeRead);
-        const SunEnergyRefs out{pass.write(to.irradiance, Use::ComputeWrite), pass.write(to.tally, Use::ComputeReadWrite)};
+        const SunEnergyRefs out{pass.write(to.irradiance, Use::ComputeWrite),
+                                pass.write(to.tally, Use::ComputeReadWrite)};
         pass.record([=](PassContext& ctx) {
             ctx.dispatch(shaders::kSunEnergyComp,
                          {storage(gpu::kSunPatches, patches), storage(gpu::kSunDensity, from),

@@ -27,7 +27,7 @@ SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawLi
                 CityMesh::describe(desc, false);
                 drawing.pipeline(std::move(desc));
                 drawing.push(params);
-                mesh.draw(ctx, drawing);
+                mesh.draw(ctx, drawing, 0, mesh.count());
             });
         });
         return out;

@@ -13,7 +13,14 @@ namespace helio {
 
 namespace {
 
-double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+/// Slope of the texels against the scene's own axes, and the share of the height that the slope of y may cost.
+constexpr double kSkew = 0.05;
+constexpr double kSkewCost = 0.1;
+
+double cross2(glm::dvec2 a, glm::dvec2 b)
+{
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Convex hull, counter-clockwise, without collinear points (Andrew's monotone chain).
 std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points)
@@ -22,7 +29,8 @@ std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points)
               [](glm::dvec2 a, glm::dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     std::vector<glm::dvec2> hull;
     const auto extend = [&](size_t base, glm::dvec2 p) {
-        while (hull.size() >= base + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) hull.pop_back();
+        while (hull.size() >= base + 2 && cross2(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0)
+            hull.pop_back();
         hull.push_back(p);
     };
     for (const glm::dvec2 p : points) extend(0, p);
@@ -38,11 +46,15 @@ struct Rectangle
     glm::dvec2 lo{0.0}, hi{0.0};
 };
 
-glm::dvec2 turnLeft(glm::dvec2 a) { return {-a.y, a.x}; }
+glm::dvec2 turnLeft(glm::dvec2 a)
+{
+    return {-a.y, a.x};
+}
 
 Rectangle boundsAlong(const std::vector<glm::dvec2>& points, glm::dvec2 axis)
 {
-    Rectangle r{axis, glm::dvec2(std::numeric_limits<double>::max()), glm::dvec2(std::numeric_limits<double>::lowest())};
+    Rectangle r{axis, glm::dvec2(std::numeric_limits<double>::max()),
+                glm::dvec2(std::numeric_limits<double>::lowest())};
     for (const glm::dvec2 p : points) {
         const glm::dvec2 q(glm::dot(p, axis), glm::dot(p, turnLeft(axis)));
         r.lo = glm::min(r.lo, q);
@@ -74,16 +86,16 @@ glm::mat4 SunView::clipFromWorld(u32 view) const
 {
     const float x = float(view % gridX), y = float(view / gridX);
     glm::mat4 clipFromGrid(1.0f);
-    clipFromGrid[0][0] = 2.0f;
-    clipFromGrid[1][1] = 2.0f;
-    clipFromGrid[3] = glm::vec4(-2.0f * x - 1.0f, -2.0f * y - 1.0f, 0.0f, 1.0f);
+    clipFromGrid[0] = glm::vec4(2.0f, 2.0f * shear, 0.0f, 0.0f);
+    clipFromGrid[1] = glm::vec4(0.0f, 2.0f, 0.0f, 0.0f);
+    clipFromGrid[3] = glm::vec4(-2.0f * x - 1.0f, -2.0f * (y + shear * x) - 1.0f, 0.0f, 1.0f);
     return clipFromGrid * gridFromWorld;
 }
 
 SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunViewOptions& options)
 {
-    HELIO_CHECK(!boxes.empty() && std::abs(glm::length(towardsSun) - 1.0) < 1e-6, boxes.size(), " boxes, |sun| = ",
-                glm::length(towardsSun));
+    HELIO_CHECK(!boxes.empty() && std::abs(glm::length(towardsSun) - 1.0) < 1e-6, boxes.size(),
+                " boxes, |sun| = ", glm::length(towardsSun));
     const glm::dvec3 helper = std::abs(towardsSun.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(helper, towardsSun));
     const glm::dvec3 up = glm::cross(towardsSun, right);
@@ -93,37 +105,50 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
     double nearest = std::numeric_limits<double>::max(), farthest = std::numeric_limits<double>::lowest();
     for (const Box& box : boxes) {
         for (u32 k = 0; k < 8; ++k) {
-            const glm::dvec3 p((k & 1) ? box.hi.x : box.lo.x, (k & 2) ? box.hi.y : box.lo.y, (k & 4) ? box.hi.z : box.lo.z);
+            const glm::dvec3 p((k & 1) ? box.hi.x : box.lo.x, (k & 2) ? box.hi.y : box.lo.y,
+                               (k & 4) ? box.hi.z : box.lo.z);
             points.push_back({glm::dot(p, right), glm::dot(p, up)});
             nearest = std::min(nearest, -glm::dot(p, towardsSun));
             farthest = std::max(farthest, -glm::dot(p, towardsSun));
         }
     }
+    // Edges along the texels gain or lose a whole row of them at once; under a small angle the rounding averages out
+    // over a patch. Two shears set the texels askew and keep their area: x by y, and y by x anew in each column of
+    // views, so that a long scene stays narrow.
     const Rectangle r = smallestRectangle(points);
-    const glm::dvec2 extent = glm::max(r.hi - r.lo, glm::dvec2(1e-3));
+    const double height = std::max(r.hi.y - r.lo.y, 1e-3);
+    const double width = std::max(r.hi.x - r.lo.x, 1e-3) + kSkew * height;
 
-    // Grow the texel until the picture fits the budget; each side is cut into equal views.
     SunView view;
-    double texel = std::max(options.texel, std::sqrt(extent.x * extent.y / double(options.maxTexels)));
-    for (;; texel *= 1.02) {
+    double skew = 0.0; // of y by x
+    glm::dvec2 extent(0.0);
+    for (double texel = std::max(options.texel, std::sqrt(width * height / double(options.maxTexels)));;
+         texel *= 1.02) {
         const auto split = [&](double length, u32& cells, u32& size) {
             const u64 texels = u64(std::ceil(length / texel)) + 2;
             cells = u32((texels + options.maxViewSize - 1) / options.maxViewSize);
             size = u32((texels + cells - 1) / cells);
         };
-        split(extent.x, view.gridX, view.width);
+        split(width, view.gridX, view.width);
+        const double viewWidth = width / view.gridX;
+        skew = std::min(kSkew, kSkewCost * height / viewWidth);
+        extent = {width, height + skew * viewWidth};
         split(extent.y, view.gridY, view.height);
-        if (u64(view.viewCount()) * view.width * view.height <= options.maxTexels && view.viewCount() <= options.maxViews) break;
+        if (u64(view.viewCount()) * view.width * view.height <= options.maxTexels &&
+            view.viewCount() <= options.maxViews)
+            break;
     }
     const glm::dvec2 size(view.gridX * view.width, view.gridY * view.height);
     view.texelX = extent.x / (size.x - 2.0);
     view.texelY = extent.y / (size.y - 2.0);
+    view.shear = float(skew * view.texelX * view.width / (view.texelY * view.height));
     const double margin = std::max({view.texelX, view.texelY, 1e-3 * (farthest - nearest), 1e-3});
     view.depthRange = farthest - nearest + 2.0 * margin;
 
     const glm::dvec2 axisY = turnLeft(r.axis);
-    const glm::dvec3 x = right * r.axis.x + up * r.axis.y;
     const glm::dvec3 y = right * axisY.x + up * axisY.y;
+    const glm::dvec3 x = right * r.axis.x + up * r.axis.y + kSkew * y;
+    const glm::dvec2 origin(r.lo.x + kSkew * r.lo.y, r.lo.y);
     const double scaleX = 1.0 / (view.texelX * view.width), scaleY = 1.0 / (view.texelY * view.height);
     const double scaleZ = 1.0 / view.depthRange;
     glm::dmat4 grid(1.0);
@@ -132,7 +157,8 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
         grid[k][1] = y[k] * scaleY;
         grid[k][2] = -towardsSun[k] * scaleZ;
     }
-    grid[3] = glm::dvec4((view.texelX - r.lo.x) * scaleX, (view.texelY - r.lo.y) * scaleY, (margin - nearest) * scaleZ, 1.0);
+    grid[3] = glm::dvec4((view.texelX - origin.x) * scaleX, (view.texelY - origin.y) * scaleY,
+                         (margin - nearest) * scaleZ, 1.0);
     view.gridFromWorld = glm::mat4(grid);
     return view;
 }

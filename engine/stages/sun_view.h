@@ -13,20 +13,21 @@ namespace helio {
 /// How fine the sun looks.
 struct SunViewOptions
 {
-    double texel = 0.04;           ///< m; smaller: slower; larger: noisy counts of small patches, coarse shadow edges
-    u64 maxTexels = 4ull << 24;    ///< over all views (4 x 4096^2): the texel grows when the scene needs more
-    u32 maxViewSize = 4096;        ///< texels of one view, along each side
-    u32 maxViews = 256;            ///< layers that the device offers
+    double texel = 0.04;        ///< m; smaller: slower; larger: noisy counts of small patches, coarse shadow edges
+    u64 maxTexels = 4ull << 24; ///< over all views (4 x 4096^2): the texel grows when the scene needs more
+    u32 maxViewSize = 4096;     ///< texels of one view, along each side
+    u32 maxViews = 256;         ///< layers that the device offers
 };
 
 /// The sun's orthographic picture of the scene: a rectangle in light space, cut into a grid of views of the same size.
 struct SunView
 {
     glm::mat4 gridFromWorld{1.0f}; ///< x in [0, gridX], y in [0, gridY] (y up), z in [0, 1] away from the sun
+    float shear = 0.0f;            ///< added to y a unit of x from the left edge of each view, see clipFromWorld
     u32 gridX = 1, gridY = 1;
-    u32 width = 1, height = 1;     ///< texels of one view
+    u32 width = 1, height = 1;         ///< texels of one view
     double texelX = 1.0, texelY = 1.0; ///< m
-    double depthRange = 1.0;       ///< m
+    double depthRange = 1.0;           ///< m
 
     double texelArea() const { return texelX * texelY; }
     u32 viewCount() const { return gridX * gridY; }
@@ -34,8 +35,8 @@ struct SunView
     glm::mat4 clipFromWorld(u32 view) const;
 };
 
-/// Fits the picture to the boxes: the rectangle of smallest area (over all rolls about the direction) that holds them, with a
-/// margin of one texel. A long canyon gets pixels shaped to it. towardsSun: unit vector. boxes: at least one.
+/// Fits the picture to the boxes: the rectangle of smallest area (over all rolls about the direction) that holds them,
+/// with a margin of one texel. A long canyon gets pixels shaped to it. towardsSun: unit vector. boxes: at least one.
 SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunViewOptions& options);
 
 } // namespace helio

@@ -34,8 +34,8 @@ Key keyOf(const gpu::VertexRecord& v)
 
 u64 cellOf(glm::vec3 p, u32 normal)
 {
-    const std::array<i32, 4> cell{i32(std::floor(p.x / kCell)), i32(std::floor(p.y / kCell)), i32(std::floor(p.z / kCell)),
-                                  i32(normal)};
+    const std::array<i32, 4> cell{i32(std::floor(p.x / kCell)), i32(std::floor(p.y / kCell)),
+                                  i32(std::floor(p.z / kCell)), i32(normal)};
     return hashBytes(std::as_bytes(std::span(cell)));
 }
 

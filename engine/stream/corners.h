@@ -16,8 +16,8 @@ struct Corners
     std::vector<u32> patches;  ///< of each corner, ascending, each once
 };
 
-/// Joins vertices with the same position (to 1 mm) and normal. Triangle corners of other patches that lie inside an edge
-/// (T-junctions) count as corners of the edge's patch too.
+/// Joins vertices with the same position (to 1 mm) and normal. Triangle corners of other patches that lie inside an
+/// edge (T-junctions) count as corners of the edge's patch too.
 Corners buildCorners(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices);
 
 } // namespace helio

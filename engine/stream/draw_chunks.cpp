@@ -92,6 +92,8 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile)
             }
         }
     }
+    std::stable_partition(chunks.begin(), chunks.end(),
+                          [](const DrawChunk& chunk) { return isStaticDraw(chunk.draw); });
     return chunks;
 }
 

@@ -22,14 +22,21 @@ struct DrawChunk
     Box box;
 };
 
+/// Does this draw belong to the static mesh (instance 0), or to an asset?
+inline bool isStaticDraw(const gpu::DrawRecord& draw)
+{
+    return draw.firstInstance == 0 && draw.instanceCount == 1;
+}
+
 inline constexpr u32 kChunkTriangles = 2048;
 inline constexpr u32 kChunkInstances = 32;
 
-/// Cuts the tile's draws into chunks with their bounds. Chunks keep the order of the draws.
+/// Cuts the tile's draws into chunks with their bounds. The static mesh comes first; apart from that
+/// chunks keep the order of the draws.
 std::vector<DrawChunk> buildDrawChunks(const TileView& tile);
 
-/// The draws of the chunks that may show in a view: a chunk is left out when its box lies wholly beyond one of the planes
-/// -w <= x <= w, -w <= y <= w, 0 <= z <= w. Neighbouring chunks of one draw become one draw again.
+/// The draws of the chunks that may show in a view: a chunk is left out when its box lies wholly beyond one of the
+/// planes -w <= x <= w, -w <= y <= w, 0 <= z <= w. Neighbouring chunks of one draw become one draw again.
 std::vector<gpu::DrawRecord> visibleDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld);
 
 } // namespace helio

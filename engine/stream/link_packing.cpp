@@ -14,7 +14,8 @@ Result<PackedLinks> packLinks(std::span<const u32> rows, std::span<const u32> co
     u64 total = 0;
     for (u32 i = 0; i < rowCount; ++i) total += (u64(rows[i + 1]) - rows[i] + 1) / 2;
     if (total > 0xFFFFFFFFull)
-        return Error{concat("the tile has ", columns.size(), " links, more than a device can index; bake smaller tiles")};
+        return Error{
+            concat("the tile has ", columns.size(), " links, more than a device can index; bake smaller tiles")};
 
     PackedLinks packed;
     packed.rows.reserve(rows.size());

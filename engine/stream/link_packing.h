@@ -26,8 +26,8 @@ struct PackedLinks
 };
 
 /// Repacks the pack's links for a device that reads at most `maxPairsPerPage` pairs from one buffer. rows: rowCount + 1
-/// ascending offsets into columns and factors. The order of a row's links stays. Error: a row that no page can hold, or more
-/// than 2^32 pairs.
+/// ascending offsets into columns and factors. The order of a row's links stays. Error: a row that no page can hold, or
+/// more than 2^32 pairs.
 Result<PackedLinks> packLinks(std::span<const u32> rows, std::span<const u32> columns, std::span<const float> factors,
                               u64 maxPairsPerPage);
 

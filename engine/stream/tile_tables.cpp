@@ -9,8 +9,6 @@ namespace helio {
 
 namespace {
 
-bool isStatic(const gpu::DrawRecord& draw) { return draw.firstInstance == 0 && draw.instanceCount == 1; }
-
 /// Does the gather that reads texel buffers serve: the radiosity and the longest row in one view each, few pages?
 bool texelsServe(const Context& context, const TileView& tile)
 {
@@ -29,7 +27,7 @@ std::vector<u32> staticTriangles(const TileView& tile)
 {
     std::vector<u32> triangles;
     for (const gpu::DrawRecord& draw : tile.draws)
-        if (isStatic(draw))
+        if (isStaticDraw(draw))
             for (u32 k = 0; k < draw.indexCount; ++k)
                 triangles.push_back(tile.indices[draw.firstIndex + k] + draw.vertexOffset);
     return triangles;
@@ -39,7 +37,7 @@ u32 countStaticVertices(const TileView& tile)
 {
     u32 count = 0;
     for (const gpu::DrawRecord& draw : tile.draws)
-        if (isStatic(draw))
+        if (isStaticDraw(draw))
             for (u32 k = 0; k < draw.indexCount; ++k)
                 count = std::max(count, tile.indices[draw.firstIndex + k] + draw.vertexOffset + 1);
     return count;
@@ -49,11 +47,15 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
 {
     if (tile.patches.empty()) return Error{"the pack has no patches: there is nothing to light"};
     if (!tile.linkMoments.empty())
-        return Error{"the pack's links have moments (linear senders); this version reads constant senders only: bake it again"};
+        return Error{
+            "the pack's links have moments (linear senders); this version reads constant senders only: bake it again"};
     TileTables t;
     t.patchCount = u32(tile.patches.size());
     t.nodeCount = u32(tile.nodes.size());
-    for (const gpu::PatchRecord& patch : tile.patches) t.patchArea += double(patch.area);
+    for (const gpu::PatchRecord& patch : tile.patches) {
+        t.patchArea += double(patch.area);
+        t.emits = t.emits || patch.emission != glm::vec4(0.0f);
+    }
     auto tree = buildTreeLevels(tile.nodes, tile.children, t.patchCount);
     if (!tree) return tree.error();
     t.texelLinks = texelsServe(context, tile);
@@ -71,8 +73,10 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
 
     t.linkRows = makeBuffer(context, "link rows", links->rows);
     for (const LinkPage& page : links->pages)
-        t.links.push_back({page, makeBuffer(context, "links", std::span<const gpu::LinkPairRecord>(links->pairs)
-                                                                  .subspan(page.pairFirst, page.pairCount))});
+        t.links.push_back(
+            {page,
+             makeBuffer(context, "links",
+                        std::span<const gpu::LinkPairRecord>(links->pairs).subspan(page.pairFirst, page.pairCount))});
 
     t.skyPatches.assign(tile.skyPatches.begin(), tile.skyPatches.end());
     t.skyRows = makeBuffer(context, "sky rows", tile.skyRows);

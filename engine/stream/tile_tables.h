@@ -24,9 +24,10 @@ struct TileTables
 {
     u32 patchCount = 0, nodeCount = 0;
     double patchArea = 0.0; ///< m2, of all patches
-    Buffer patches; ///< PatchRecord
-    Buffer nodes;   ///< NodeRecord
-    Buffer parents; ///< u32 a node
+    bool emits = false;     ///< does any patch?
+    Buffer patches;         ///< PatchRecord
+    Buffer nodes;           ///< NodeRecord
+    Buffer parents;         ///< u32 a node
     Buffer childRows, children;
     std::vector<TreeLevel> levels;
 
@@ -42,8 +43,8 @@ struct TileTables
     std::vector<DrawChunk> chunks;
 };
 
-/// Puts a tile on the device. Errors: no patches; links that lean on linear senders, which this engine does not read; a tree
-/// or links that the device cannot take.
+/// Puts a tile on the device. Errors: no patches; links that lean on linear senders, which this engine does not read; a
+/// tree or links that the device cannot take.
 Result<TileTables> uploadTile(Context& context, const TileView& tile);
 
 /// Vertices of the static mesh: those that draws of instance 0 use, counted from vertex 0.

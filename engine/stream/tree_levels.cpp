@@ -21,12 +21,14 @@ Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::
                     node.childBegin, "+", node.childCount, " of ", children.size());
         for (u32 k = 0; k < node.childCount; ++k) {
             const u32 child = children[node.childBegin + k];
-            if (child >= i) return Error{concat("node ", i, " has child ", child, ": children must come before parents")};
+            if (child >= i)
+                return Error{concat("node ", i, " has child ", child, ": children must come before parents")};
             if (nodes[child].parent != i)
                 return Error{concat("node ", child, " is a child of node ", i, " but names ", nodes[child].parent,
                                     " as its parent")};
             height[i] = std::max(height[i], height[child] + 1);
-            tree.children.push_back({child, node.area > 0.0f ? float(double(nodes[child].area) / double(node.area)) : 0.0f});
+            tree.children.push_back(
+                {child, node.area > 0.0f ? float(double(nodes[child].area) / double(node.area)) : 0.0f});
         }
         tree.childRows.push_back(u32(tree.children.size()));
         if (i > patchCount && height[i] < height[i - 1])

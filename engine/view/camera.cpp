@@ -44,13 +44,14 @@ Camera aerialCamera(glm::dvec3 boundsMin, glm::dvec3 boundsMax)
     const glm::dvec3 size = boundsMax - boundsMin;
     const double reach = std::max({std::hypot(size.x, size.y), size.z, 0.1});
     Camera camera;
-    camera.fovDegrees = 38.0;
-    camera.target = glm::dvec3((boundsMin.x + boundsMax.x) / 2.0, (boundsMin.y + boundsMax.y) / 2.0,
-                               boundsMin.z + 0.15 * size.z);
-    // From the south-south-west, 30 degrees above the horizon; near enough for facades to have windows.
-    const double azimuth = glm::radians(205.0), elevation = glm::radians(30.0);
-    const glm::dvec3 away(std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation));
-    camera.eye = camera.target + away * (0.62 * reach + 0.5 * size.z);
+    camera.fovDegrees = 34.0;
+    camera.target =
+        glm::dvec3((boundsMin.x + boundsMax.x) / 2.0, (boundsMin.y + boundsMax.y) / 2.0, boundsMin.z + 0.4 * size.z);
+    // From the south-south-west and low, so that facades show their windows and the skyline stands before the sky.
+    const double azimuth = glm::radians(205.0), elevation = glm::radians(13.0);
+    const glm::dvec3 away(std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+                          std::sin(elevation));
+    camera.eye = camera.target + away * (0.5 * reach + size.z);
     camera.near = std::min(0.5, 0.01 * reach);
     return camera;
 }
@@ -80,12 +81,14 @@ Result<Camera> parseCamera(std::string_view text, const Pack& pack)
         char* end = nullptr;
         numbers.push_back(std::strtod(at, &end));
         if (end == at || !std::isfinite(numbers.back()) || (*end != ',' && *end != '\0'))
-            return Error{concat("camera '", owned, "': expected aerial, street, top or x,y,z,tx,ty,tz[,fov] in metres and degrees")};
+            return Error{concat("camera '", owned,
+                                "': expected aerial, street, top or x,y,z,tx,ty,tz[,fov] in metres and degrees")};
         if (*end == '\0') break;
         at = end + 1;
     }
     if (numbers.size() != 6 && numbers.size() != 7)
-        return Error{concat("camera '", owned, "': ", numbers.size(), " numbers; expected x,y,z,tx,ty,tz and perhaps fov")};
+        return Error{
+            concat("camera '", owned, "': ", numbers.size(), " numbers; expected x,y,z,tx,ty,tz and perhaps fov")};
     Camera camera;
     camera.eye = {numbers[0], numbers[1], numbers[2]};
     camera.target = {numbers[3], numbers[4], numbers[5]};
@@ -93,7 +96,8 @@ Result<Camera> parseCamera(std::string_view text, const Pack& pack)
     if (glm::length(camera.target - camera.eye) < 1e-6)
         return Error{concat("camera '", owned, "': the eye is where the target is")};
     if (!(camera.fovDegrees >= 1.0 && camera.fovDegrees <= 170.0))
-        return Error{concat("camera '", owned, "': field of view ", camera.fovDegrees, " is not within 1 to 170 degrees")};
+        return Error{
+            concat("camera '", owned, "': field of view ", camera.fovDegrees, " is not within 1 to 170 degrees")};
     return camera;
 }
 

@@ -10,8 +10,8 @@
 
 namespace helio {
 
-/// A perspective camera in the tile frame: x east, y north (grid), z up, metres. The picture's up is +z (or +y when looking
-/// straight down).
+/// A perspective camera in the tile frame: x east, y north (grid), z up, metres. The picture's up is +z (or +y when
+/// looking straight down).
 struct Camera
 {
     glm::dvec3 eye{0.0, -10.0, 2.0};
@@ -27,12 +27,13 @@ struct CameraAxes
 };
 CameraAxes axesOf(const Camera& camera);
 
-/// Clip space with depth 1 at the near plane and 0 at infinity (reversed: float depth keeps its precision far away), y up.
-/// aspect = width / height.
+/// Clip space with depth 1 at the near plane and 0 at infinity (reversed: float depth keeps its precision far away), y
+/// up. aspect = width / height.
 glm::dmat4 clipFromWorld(const Camera& camera, double aspect);
 
-/// "x,y,z,tx,ty,tz[,fov]" in metres and degrees, or a preset of the pack: aerial (a low three-quarter view), street (eye
-/// height, along the longest free line of sight near the middle), top (straight down). Error: what is wrong with the text.
+/// "x,y,z,tx,ty,tz[,fov]" in metres and degrees, or a preset of the pack: aerial (a low three-quarter view), street
+/// (eye height, along the longest free line of sight near the middle), top (straight down). Error: what is wrong with
+/// the text.
 Result<Camera> parseCamera(std::string_view text, const Pack& pack);
 
 Camera aerialCamera(glm::dvec3 boundsMin, glm::dvec3 boundsMax);

@@ -11,34 +11,55 @@ namespace helio {
 
 namespace {
 
-constexpr double kHazeLength = 6000.0; // m over which 63 % of a view turns to haze
-constexpr double kMiddleGrey = 0.22;
+constexpr double kHazeLength = 12000.0;      // m over which 63 % of a view turns to haze
+constexpr double kGroundHazeLength = 3500.0; // the same for the plain beyond the scene: it shall not end in a line
+constexpr double kGroundAlbedo = 0.16;
+constexpr double kMiddleGrey = 0.50; // of the exposed mean; the curve brings it to a display value above one half
+constexpr double kSunWeight = 0.04;  // of a white surface in the sun, so that it does not burn out in a dark scene
 
-double luminance(const glm::dvec4& v) { return 0.2126 * v.r + 0.7152 * v.g + 0.0722 * v.b; }
+double luminance(const glm::dvec4& v)
+{
+    return 0.2126 * v.r + 0.7152 * v.g + 0.0722 * v.b;
+}
 
 /// Scales a colour to luminance 1, so that a tint changes no brightness.
-glm::dvec3 tint(glm::dvec3 colour) { return colour / luminance(glm::dvec4(colour, 0.0)); }
+glm::dvec3 tint(glm::dvec3 colour)
+{
+    return colour / luminance(glm::dvec4(colour, 0.0));
+}
 
 } // namespace
 
-gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun, bool display)
+gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunView& sun, bool display)
+{
+    gpu::ForwardParams p{};
+    p.clipFromWorld = glm::mat4(clipFromWorld(camera, aspect));
+    const glm::mat4 rows = glm::transpose(sun.gridFromWorld);
+    p.sunRow0 = rows[0];
+    p.sunRow1 = rows[1];
+    p.sunRow2 = rows[2];
+    p.eye = glm::vec4(glm::vec3(camera.eye), display ? float(1.0 / kHazeLength) : 0.0f);
+    return p;
+}
+
+gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun,
+                           bool display, double groundZ)
 {
     gpu::ViewRecord v{};
-    const glm::dmat4 clip = clipFromWorld(camera, aspect);
-    v.clipFromWorld = glm::mat4(clip);
-    v.worldFromClip = glm::mat4(glm::inverse(clip));
-    v.sunFromWorld = sun.gridFromWorld;
-    v.eye = glm::vec4(glm::vec3(camera.eye), display ? float(1.0 / kHazeLength) : 0.0f);
+    v.worldFromClip = glm::mat4(glm::inverse(clipFromWorld(camera, aspect)));
+    v.eye = glm::vec4(glm::vec3(camera.eye), 0.0f);
     v.sunDirection = glm::vec4(glm::vec3(light.towardsSun), light.sunUp() ? 1.0f : 0.0f);
-    v.dni = glm::vec4(light.sunUp() ? float(light.dni) : 0.0f);
     v.gridSize = glm::vec2(sun.gridX, sun.gridY);
-    v.shadowTexel = glm::vec2(sun.texelX, sun.texelY);
-    v.shadowSize = glm::vec2(sun.width, sun.height);
+    v.shadowStep = 1.0f / glm::vec2(sun.width, sun.height);
+    v.shadowTexel = float(std::max(sun.texelX, sun.texelY));
+    v.sunShear = sun.shear;
     v.depthRange = float(sun.depthRange);
     v.emissionScale = light.emission ? 1.0f : 0.0f;
 
     const double sky = light.dhi / std::numbers::pi; // radiance of the uniform sky
-    v.sunTint = v.skyTint = glm::vec4(1.0f);
+    const double dni = light.sunUp() ? light.dni : 0.0;
+    v.sunLight = glm::vec4(float(dni));
+    v.skyTint = glm::vec4(1.0f);
     v.zenith = glm::vec4(glm::vec3(float(sky)), 1.0f);
     v.horizon = glm::vec4(glm::vec3(float(sky)), 0.0f);
     if (!display) return v;
@@ -46,12 +67,15 @@ gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState
     // Warm and weak near the horizon, nearly white above 30 degrees; the sky keeps what the sun lost.
     const double high = glm::smoothstep(0.0, 0.5, std::max(light.towardsSun.z, 0.0));
     const double lit = light.sunUp() ? 1.0 : 0.0;
-    v.sunTint = glm::vec4(tint(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
+    v.sunLight = glm::vec4(dni * tint(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
     v.skyTint = glm::vec4(tint(glm::mix(glm::dvec3(0.82, 0.88, 1.0), glm::dvec3(0.74, 0.87, 1.0), high)), 1.0);
-    const glm::dvec3 zenith = sky * glm::mix(glm::dvec3(0.42, 0.62, 1.02), glm::dvec3(0.36, 0.66, 1.18), high);
-    const glm::dvec3 horizon = sky * glm::mix(glm::dvec3(1.35, 1.16, 1.02), glm::dvec3(1.18, 1.32, 1.46), high);
+    const glm::dvec3 zenith = sky * glm::mix(glm::dvec3(0.42, 0.70, 1.25), glm::dvec3(0.34, 0.80, 1.75), high);
+    const glm::dvec3 horizon = sky * glm::mix(glm::dvec3(1.75, 1.42, 1.15), glm::dvec3(1.40, 1.72, 2.05), high);
     v.zenith = glm::vec4(zenith, 3.0);
-    v.horizon = glm::vec4(horizon, 0.55);
+    v.horizon = glm::vec4(horizon, 1.0 / kGroundHazeLength);
+    const glm::dvec3 onGround =
+        glm::dvec3(v.sunLight) * std::max(light.towardsSun.z, 0.0) + light.dhi * glm::dvec3(v.skyTint);
+    v.ground = glm::vec4(kGroundAlbedo / std::numbers::pi * onGround, std::max(camera.eye.z - groundZ, 0.1));
     v.glow = glm::vec4(lit * sky * glm::mix(glm::dvec3(2.4, 1.3, 0.6), glm::dvec3(1.2, 1.1, 0.9), high), 0.0);
     return v;
 }
@@ -59,7 +83,8 @@ gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState
 double autoExposure(const glm::dvec4& meanRadiosity, const LightState& light)
 {
     // A scene that reflects nothing still shows its sky.
-    const double radiance = std::max(luminance(meanRadiosity), 0.02 * light.dhi) / std::numbers::pi;
+    const double mean = std::max(luminance(meanRadiosity), 0.02 * light.dhi);
+    const double radiance = (mean + kSunWeight * (light.sunUp() ? light.dni : 0.0)) / std::numbers::pi;
     return radiance > 0.0 ? kMiddleGrey / radiance : 1.0;
 }
 
@@ -67,12 +92,18 @@ double falseColourScale(u32 mode, const glm::dvec4& meanRadiosity, const LightSt
 {
     const double mean = std::max(luminance(meanRadiosity), 1e-3);
     switch (mode) {
-    case gpu::kModeDepth: return 100.0;
-    case gpu::kModeSun: return std::max(light.dni, 1e-3);
-    case gpu::kModeSky: return std::max(light.dhi, 1e-3);
-    case gpu::kModeIndirect: return 1.5 * mean;
-    case gpu::kModeRadiosity: return 4.0 * mean;
-    default: return 1.0;
+    case gpu::kModeDepth:
+        return 100.0;
+    case gpu::kModeSun:
+        return std::max(light.dni, 1e-3);
+    case gpu::kModeSky:
+        return std::max(light.dhi, 1e-3);
+    case gpu::kModeIndirect:
+        return 1.5 * mean;
+    case gpu::kModeRadiosity:
+        return 4.0 * mean;
+    default:
+        return 1.0;
     }
 }
 

@@ -9,16 +9,19 @@
 
 namespace helio {
 
-/// What the forward pass needs to know about one picture. display: tinted sun and sky, haze, gradient sky (display only);
-/// else plain radiance before a uniform sky.
-gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun, bool display);
+/// What the forward pass needs to know about one picture, in its two parts. display: tinted sun and sky, haze, gradient
+/// sky (display only); else plain radiance before a uniform sky.
+gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunView& sun, bool display);
+/// groundZ: m, where the plain beyond the scene lies.
+gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun,
+                           bool display, double groundZ);
 
 /// Display scale of a radiance, per W/m2/sr: brings the scene's mean radiance to a fixed grey. meanRadiosity: W/m2,
 /// area-weighted over the patches. Depends on the light alone, not on the camera, so pictures of one light compare.
 double autoExposure(const glm::dvec4& meanRadiosity, const LightState& light);
 
-/// Value shown as white in the debug view of a mode: W/m2 for irradiances and radiosity, m for the depth that is shown as
-/// middle grey, 1 for visibility.
+/// Value shown as white in the debug view of a mode: W/m2 for irradiances and radiosity, m for the depth that is shown
+/// as middle grey, 1 for visibility.
 double falseColourScale(u32 mode, const glm::dvec4& meanRadiosity, const LightState& light);
 
 } // namespace helio

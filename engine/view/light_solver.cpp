@@ -52,7 +52,8 @@ LightSolver::LightSolver(Context& context, const TileTables& tile, const Rendere
       density_(makeZeros(context, "sun density", tile.nodeCount)), sun_(makeZeros(context, "E_sun", tile.patchCount)),
       tally_(makeBuffer(context, "sun tally", std::vector<gpu::SunTallyRecord>(1))),
       sky_(makeZeros(context, "E_sky", tile.patchCount)), b0_(makeZeros(context, "B0", tile.patchCount)),
-      radiosity_(makeZeros(context, "B", tile.nodeCount)), irradiance_(makeZeros(context, "E_indirect", tile.nodeCount)),
+      radiosity_(makeZeros(context, "B", tile.nodeCount)),
+      irradiance_(makeZeros(context, "E_indirect", tile.nodeCount)),
       partials_(context, {"residual parts", u64(updateGroups(tile)) * sizeof(gpu::ResidualRecord)}),
       residual_(context, {"residual", sizeof(gpu::ResidualRecord)}),
       residualHost_(context, {"residual on the host", sizeof(gpu::ResidualRecord), Memory::Readback}),
@@ -121,9 +122,10 @@ void LightSolver::solveSun(const LightState& light)
         counts = addHistogram(graph, pictures.ids, counts, sunView_.width, sunView_.height, tile_.patchCount,
                               {!options_.plainHistogram});
     }
-    const SunEnergyInput input{glm::vec3(light.towardsSun), glm::vec4(raster ? float(light.dni) : 0.0f), sunView_.texelArea()};
-    const SunEnergyRefs energy = addSunEnergy(graph, tile_, counts, graph.import(density_),
-                                              {graph.import(sun_), graph.import(tally_)}, input);
+    const SunEnergyInput input{glm::vec3(light.towardsSun), glm::vec4(raster ? float(light.dni) : 0.0f),
+                               sunView_.texelArea()};
+    const SunEnergyRefs energy =
+        addSunEnergy(graph, tile_, counts, graph.import(density_), {graph.import(sun_), graph.import(tally_)}, input);
     addReadback(graph, energy.tally, tallyHost_);
     run(graph);
 
@@ -151,15 +153,17 @@ void LightSolver::sweep(const LightState& light, bool warm)
     {
         FrameGraph graph("first light");
         (void)addFirstLight(graph, tile_, {graph.import(sun_), graph.import(sky_)},
-                            {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)}, light.emission, warm);
+                            {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)}, light.emission,
+                            warm);
         run(graph);
     }
     const SolveOptions& to = options_.solve;
     const u32 limit = std::max(to.exactSweeps > 0 ? to.exactSweeps : to.maxSweeps, 1u);
     for (report_.sweeps = 0; report_.sweeps < limit;) {
         FrameGraph graph("sweep");
-        const UpdateRefs result = addSweep(graph, tile_, {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)},
-                                           graph.import(partials_), graph.import(residual_));
+        const UpdateRefs result =
+            addSweep(graph, tile_, {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)},
+                     graph.import(partials_), graph.import(residual_));
         addReadback(graph, result.residual, residualHost_);
         run(graph);
         ++report_.sweeps;

@@ -19,8 +19,8 @@ struct LightState
     bool operator==(const LightState&) const = default;
 };
 
-/// Unit vector towards a sun at an azimuth clockwise from true north and an elevation above the horizon, in degrees, in a
-/// tile frame whose +y points northDeg clockwise from true north.
+/// Unit vector towards a sun at an azimuth clockwise from true north and an elevation above the horizon, in degrees, in
+/// a tile frame whose +y points northDeg clockwise from true north.
 glm::dvec3 sunDirection(double azimuthDeg, double elevationDeg, double northDeg);
 
 } // namespace helio

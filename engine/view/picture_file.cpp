@@ -89,7 +89,8 @@ Status writeExr(const std::filesystem::path& path, u32 width, u32 height, std::s
             header.channels().insert(channel.name, Imf::Channel(type));
             const void* data = whole ? static_cast<const void*>(channel.uints.data()) : channel.floats.data();
             // The library's slices are not const, but writing only reads them.
-            frame.insert(channel.name, Imf::Slice(type, static_cast<char*>(const_cast<void*>(data)), 4, 4 * size_t(width)));
+            frame.insert(channel.name,
+                         Imf::Slice(type, static_cast<char*>(const_cast<void*>(data)), 4, 4 * size_t(width)));
         }
         Imf::OutputFile file(stream, header);
         file.setFrameBuffer(frame);

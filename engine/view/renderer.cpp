@@ -57,6 +57,8 @@ struct Renderer::Impl
           viewRecord(c, {"view", sizeof(gpu::ViewRecord), Memory::Upload}), recorder(c),
           nothing(makeBuffer(c, "no corners", std::vector<glm::vec4>(2)))
     {
+        groundZ = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
+        for (const DrawChunk& chunk : tile.chunks) groundZ = std::min(groundZ, double(chunk.box.lo.z));
     }
 
     /// The tables of interpolated light are made when a picture first asks for them.
@@ -85,6 +87,7 @@ struct Renderer::Impl
     std::optional<Pack> pack; // keeps the mapped tile alive
     TileView view;
     double northDeg;
+    double groundZ = 0.0; // m, the lowest point of what is drawn
     TileTables tile;
     LightSolver solver;
     LightState light;
@@ -98,7 +101,10 @@ struct Renderer::Impl
 };
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Renderer::~Renderer() { impl_->context.waitIdle(); }
+Renderer::~Renderer()
+{
+    impl_->context.waitIdle();
+}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(Context& context, const TileView& tile, double northDeg,
                                                    const RendererOptions& options)
@@ -120,8 +126,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(Context& context, const Pack&
 
 void Renderer::setSun(double azimuthDeg, double elevationDeg, double dni)
 {
-    HELIO_CHECK(std::isfinite(azimuthDeg) && std::isfinite(elevationDeg) && std::isfinite(dni) && dni >= 0.0, "azimuth ",
-                azimuthDeg, ", elevation ", elevationDeg, ", DNI ", dni);
+    HELIO_CHECK(std::isfinite(azimuthDeg) && std::isfinite(elevationDeg) && std::isfinite(dni) && dni >= 0.0,
+                "azimuth ", azimuthDeg, ", elevation ", elevationDeg, ", DNI ", dni);
     impl_->light.towardsSun = sunDirection(azimuthDeg, elevationDeg, impl_->northDeg);
     impl_->light.dni = dni;
 }
@@ -132,10 +138,22 @@ void Renderer::setSky(double dhi)
     impl_->light.dhi = dhi;
 }
 
-void Renderer::setEmission(bool on) { impl_->light.emission = on; }
-SolveOptions& Renderer::solveOptions() { return impl_->solver.options().solve; }
-const LightState& Renderer::light() const { return impl_->light; }
-const SolveReport& Renderer::solve() { return impl_->solver.solve(impl_->light); }
+void Renderer::setEmission(bool on)
+{
+    impl_->light.emission = on;
+}
+SolveOptions& Renderer::solveOptions()
+{
+    return impl_->solver.options().solve;
+}
+const LightState& Renderer::light() const
+{
+    return impl_->light;
+}
+const SolveReport& Renderer::solve()
+{
+    return impl_->solver.solve(impl_->light);
+}
 
 LightTables Renderer::readTables()
 {
@@ -145,9 +163,13 @@ LightTables Renderer::readTables()
     return {read(s.sun()), read(s.sky()), read(s.indirect()), read(s.radiosity())};
 }
 
-std::vector<u32> Renderer::readCounts() { return downloadItems<u32>(impl_->context, impl_->solver.counts()); }
+std::vector<u32> Renderer::readCounts()
+{
+    return downloadItems<u32>(impl_->context, impl_->solver.counts());
+}
 
-Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width, u32 height, const ViewOptions& options)
+Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width, u32 height,
+                              const ViewOptions& options)
 {
     Impl& r = *impl_;
     HELIO_CHECK(width > 0 && height > 0 && options.samples >= 1 && options.samples <= 4, width, " x ", height, ", ",
@@ -159,16 +181,16 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     if (smooth) r.needCorners();
     r.needImages(width, height, samples);
 
-    gpu::ViewRecord record = viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display);
-    record.mode = options.mode;
-    record.smoothLight = smooth ? 1u : 0u;
-    record.patchCount = r.tile.patchCount;
-    record.staticVertexCount = r.tile.staticVertexCount;
+    const gpu::ForwardParams params =
+        forwardParams(camera, double(width) / height, r.solver.sunView(), options.display);
+    const gpu::ViewRecord record =
+        viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display, r.groundZ);
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
-    r.drawn = DrawList(r.context, visibleDraws(r.tile.chunks, record.clipFromWorld));
+    r.drawn = DrawList(r.context, visibleDraws(r.tile.chunks, params.clipFromWorld));
 
     ShadeInputs in;
+    in.params = params;
     in.view = graph.import(r.viewRecord);
     in.shadow = graph.import(r.solver.shadow());
     in.sun = graph.import(r.solver.sun());
@@ -176,8 +198,11 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.indirect = graph.import(r.solver.indirect());
     in.radiosity = graph.import(r.solver.radiosity());
     in.cornerOfVertex = graph.import(smooth ? r.corners->ofVertex : r.nothing);
-    in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth)) : graph.import(r.nothing);
+    in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth))
+                       : graph.import(r.nothing);
     in.mode = options.mode;
+    in.interpolate = smooth;
+    in.emitters = r.tile.emits && r.light.emission;
     const ShadeTargets targets =
         addForward(graph, r.tile, r.drawn, in, {graph.import(r.images.radiance), graph.import(r.images.depth)});
 
@@ -191,7 +216,10 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     return addTone(graph, targets.radiance, graph.import(r.images.display), tone);
 }
 
-const Image& Renderer::displayImage() const { return impl_->images.display; }
+const Image& Renderer::displayImage() const
+{
+    return impl_->images.display;
+}
 
 Picture Renderer::render(const Camera& camera, u32 width, u32 height, const ViewOptions& options)
 {
@@ -209,7 +237,8 @@ Picture Renderer::render(const Camera& camera, u32 width, u32 height, const View
     picture.height = height;
     picture.passes = r.recorder.times();
     picture.display = downloadTexels<u8>(r.context, r.images.display);
-    picture.values = averageSamples(downloadTexels<glm::vec4>(r.context, r.images.radiance), width, height, r.images.samples);
+    picture.values =
+        averageSamples(downloadTexels<glm::vec4>(r.context, r.images.radiance), width, height, r.images.samples);
     return picture;
 }
 

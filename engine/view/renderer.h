@@ -36,13 +36,13 @@ struct RendererOptions
 
 struct SolveReport
 {
-    bool cached = false;      ///< nothing changed: the last solution stands, the figures are its own
+    bool cached = false; ///< nothing changed: the last solution stands, the figures are its own
     u32 sweeps = 0;
-    double residual = 0.0;    ///< of the radiosity that the last sweep started from; the result's own is smaller
+    double residual = 0.0;         ///< of the radiosity that the last sweep started from; the result's own is smaller
     glm::dvec4 meanRadiosity{0.0}; ///< W/m2, area-weighted mean of B over all patches
-    u32 litPatches = 0;       ///< patches that face the sun
-    u32 flaggedPatches = 0;   ///< of them, lit by an ancestor's ratio: too few texels, or grazing
-    u32 excessPatches = 0;    ///< of them, more texels than their area explains; clamped
+    u32 litPatches = 0;            ///< patches that face the sun
+    u32 flaggedPatches = 0;        ///< of them, lit by an ancestor's ratio: too few texels, or grazing
+    u32 excessPatches = 0;         ///< of them, more texels than their area explains; clamped
     double sunTexelX = 0.0, sunTexelY = 0.0; ///< m
     u32 sunViews = 0, sunWidth = 0, sunHeight = 0;
     std::vector<PassTime> stages; ///< milliseconds on the device: sun raster, histogram, sun energy, sky, gather
@@ -51,19 +51,19 @@ struct SolveReport
 /// What a picture shows besides the city.
 struct ViewOptions
 {
-    u32 mode = gpu::kModeFinal;  ///< gpu::kMode...
-    u32 samples = 1;             ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
-    bool smoothLight = true;     ///< final: interpolate E_sky and E_indirect over coplanar patches (display only)
-    bool display = true;         ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
-    double exposureStops = 0.0;  ///< added to the automatic exposure
+    u32 mode = gpu::kModeFinal; ///< gpu::kMode...
+    u32 samples = 1;            ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
+    bool smoothLight = true;    ///< final: interpolate E_sky and E_indirect over coplanar patches (display only)
+    bool display = true; ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
+    double exposureStops = 0.0; ///< added to the automatic exposure
 };
 
 /// A picture on the host, rows from the top.
 struct Picture
 {
     u32 width = 0, height = 0;
-    std::vector<u8> display;         ///< RGBA, sRGB
-    std::vector<glm::vec4> values;   ///< linear, mean of the samples: see addForward for the unit of each mode
+    std::vector<u8> display;       ///< RGBA, sRGB
+    std::vector<glm::vec4> values; ///< linear, mean of the samples: see addForward for the unit of each mode
     std::vector<PassTime> passes;
 };
 
@@ -78,7 +78,8 @@ class Renderer
 {
 public:
     /// Uploads the pack's tile. Errors: see uploadTile.
-    static Result<std::unique_ptr<Renderer>> create(Context& context, const Pack& pack, const RendererOptions& options = {});
+    static Result<std::unique_ptr<Renderer>> create(Context& context, const Pack& pack,
+                                                    const RendererOptions& options = {});
     /// The same for a tile in memory, which must outlive the renderer. northDeg: see PackIndex.
     static Result<std::unique_ptr<Renderer>> create(Context& context, const TileView& tile, double northDeg,
                                                     const RendererOptions& options = {});
@@ -102,8 +103,8 @@ public:
 
     /// Solves if needed, draws, waits, reads back.
     Picture render(const Camera& camera, u32 width, u32 height, const ViewOptions& view = {});
-    /// For windows: solves if needed and adds stage 4 to a graph. Returns the display image (RGBA8, sRGB bytes; owned by the
-    /// renderer, import it by displayImage()). One frame in flight: the previous one must be complete.
+    /// For windows: solves if needed and adds stage 4 to a graph. Returns the display image (RGBA8, sRGB bytes; owned
+    /// by the renderer, import it by displayImage()). One frame in flight: the previous one must be complete.
     Ref<Image> addFrame(FrameGraph& graph, const Camera& camera, u32 width, u32 height, const ViewOptions& view = {});
     /// The image behind addFrame's result.
     const Image& displayImage() const;

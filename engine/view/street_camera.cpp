@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
 
@@ -12,9 +13,9 @@ namespace helio {
 
 namespace {
 
-constexpr double kEyeHeight = 1.7;  // m
-constexpr double kObstacle = 1.0;   // m above the lowest ground
-constexpr double kClearance = 4.0;  // m that a good standpoint keeps from walls
+constexpr double kEyeHeight = 1.7; // m
+constexpr double kObstacle = 1.0;  // m above the lowest ground
+constexpr double kClearance = 4.0; // m that a good standpoint keeps from walls
 constexpr u32 kDirections = 48;
 
 /// Which cells of a square grid hold something that stands in the way.
@@ -23,13 +24,14 @@ class Obstacles
 public:
     Obstacles(const TileView& tile, glm::dvec3 lo, glm::dvec3 hi)
         : lo_(lo), cell_(std::max({1.0, (hi.x - lo.x) / 1024.0, (hi.y - lo.y) / 1024.0})),
-          width_(u32((hi.x - lo.x) / cell_) + 1), height_(u32((hi.y - lo.y) / cell_) + 1), taken_(size_t(width_) * height_, 0)
+          width_(u32((hi.x - lo.x) / cell_) + 1), height_(u32((hi.y - lo.y) / cell_) + 1),
+          taken_(size_t(width_) * height_, 0)
     {
         const std::vector<u32> triangles = staticTriangles(tile);
         for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
             const glm::dvec3 a(tile.vertices[triangles[i]].position), b(tile.vertices[triangles[i + 1]].position),
                 c(tile.vertices[triangles[i + 2]].position);
-            if (std::max({a.z, b.z, c.z}) > lo.z + kObstacle) fill(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)));
+            if (std::max({a.z, b.z, c.z}) > lo.z + kObstacle) fill(glm::dvec2(a), glm::dvec2(b), glm::dvec2(c));
         }
     }
 
@@ -45,19 +47,26 @@ public:
     double freeLength(double x, double y, double azimuth) const
     {
         double length = 0.0;
-        while (length < 400.0 && !taken(x + length * std::sin(azimuth), y + length * std::cos(azimuth))) length += cell_ / 2.0;
+        while (length < 400.0 && !taken(x + length * std::sin(azimuth), y + length * std::cos(azimuth)))
+            length += cell_ / 2.0;
         return length;
     }
 
 private:
-    void fill(glm::dvec3 lo, glm::dvec3 hi)
+    void mark(glm::dvec2 at)
     {
-        const auto index = [](double at, double origin, double cell, u32 count) {
-            return u32(std::clamp((at - origin) / cell, 0.0, double(count - 1)));
-        };
-        const u32 x1 = index(hi.x, lo_.x, cell_, width_), y1 = index(hi.y, lo_.y, cell_, height_);
-        for (u32 y = index(lo.y, lo_.y, cell_, height_); y <= y1; ++y)
-            for (u32 x = index(lo.x, lo_.x, cell_, width_); x <= x1; ++x) taken_[size_t(y) * width_ + x] = 1;
+        const double x = std::clamp((at.x - lo_.x) / cell_, 0.0, double(width_ - 1));
+        const double y = std::clamp((at.y - lo_.y) / cell_, 0.0, double(height_ - 1));
+        taken_[size_t(u32(y)) * width_ + u32(x)] = 1;
+    }
+
+    /// Marks the cells under a triangle by points half a cell apart: enough for walls, which are lines from above, too.
+    void fill(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c)
+    {
+        const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+        const u32 steps = u32(std::ceil(2.0 * longest / cell_)) + 1;
+        for (u32 i = 0; i <= steps; ++i)
+            for (u32 j = 0; i + j <= steps; ++j) mark(a + (double(i) * (b - a) + double(j) * (c - a)) / double(steps));
     }
 
     glm::dvec3 lo_;

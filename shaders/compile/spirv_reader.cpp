@@ -12,7 +12,8 @@ namespace {
 
 // Numbers of the SPIR-V 1.6 specification, sections 3.7, 3.8, 3.20 and 3.49.
 constexpr u32 kMagic = 0x07230203;
-enum Op : u32 {
+enum Op : u32
+{
     kOpName = 5,
     kOpMemberName = 6,
     kOpTypeInt = 21,
@@ -31,8 +32,21 @@ enum Op : u32 {
     kOpDecorate = 71,
     kOpMemberDecorate = 72,
 };
-enum Decoration : u32 { kArrayStride = 6, kMatrixStride = 7, kBinding = 33, kDescriptorSet = 34, kOffset = 35 };
-enum StorageClass : u32 { kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12 };
+enum Decoration : u32
+{
+    kArrayStride = 6,
+    kMatrixStride = 7,
+    kBinding = 33,
+    kDescriptorSet = 34,
+    kOffset = 35
+};
+enum StorageClass : u32
+{
+    kUniformConstant = 0,
+    kUniform = 2,
+    kPushConstant = 9,
+    kStorageBuffer = 12
+};
 constexpr u32 kDimBuffer = 5;
 constexpr u32 kMaxPushBytes = 128;
 
@@ -81,7 +95,7 @@ private:
     std::map<std::pair<u32, u32>, std::string> memberNames_;
     std::map<u32, Type> types_;
     std::map<u32, u32> constants_;
-    std::map<std::pair<u32, u32>, u32> decorations_;                   // (id, kind) -> value
+    std::map<std::pair<u32, u32>, u32> decorations_;                       // (id, kind) -> value
     std::map<std::pair<std::pair<u32, u32>, u32>, u32> memberDecorations_; // ((id, member), kind) -> value
     std::vector<Variable> variables_;
 };
@@ -145,9 +159,12 @@ u32 Reader::bytesOf(u32 typeId, u32 matrixStride) const
     const Type& type = found->second;
     switch (type.op) {
     case kOpTypeInt:
-    case kOpTypeFloat: return type.operands[0] / 8;
-    case kOpTypeVector: return bytesOf(type.operands[0], 0) * type.operands[1];
-    case kOpTypeMatrix: return matrixStride * type.operands[1];
+    case kOpTypeFloat:
+        return type.operands[0] / 8;
+    case kOpTypeVector:
+        return bytesOf(type.operands[0], 0) * type.operands[1];
+    case kOpTypeMatrix:
+        return matrixStride * type.operands[1];
     case kOpTypeArray: {
         const auto length = constants_.find(type.operands[1]);
         return length == constants_.end() ? 0 : decoration(typeId, kArrayStride, 0) * length->second;
@@ -160,7 +177,8 @@ u32 Reader::bytesOf(u32 typeId, u32 matrixStride) const
         }
         return bytes;
     }
-    default: return 0;
+    default:
+        return 0;
     }
 }
 
@@ -180,7 +198,8 @@ SpirvStruct Reader::structOf(u32 id, const Type& type) const
     }
     for (const auto& [arrayId, array] : types_) {
         const bool isArray = array.op == kOpTypeArray || array.op == kOpTypeRuntimeArray;
-        if (isArray && array.operands[0] == id) result.stride = std::max(result.stride, decoration(arrayId, kArrayStride, 0));
+        if (isArray && array.operands[0] == id)
+            result.stride = std::max(result.stride, decoration(arrayId, kArrayStride, 0));
     }
     return result;
 }
@@ -219,7 +238,8 @@ Result<SpirvModule> Reader::summarise() const
         const u32 binding = decoration(variable.id, kBinding, kNoIndex);
         if (binding == kNoIndex) continue;
         const std::string name = types_.at(pointee).op == kOpTypeStruct ? nameOf(pointee) : nameOf(variable.id);
-        if (decoration(variable.id, kDescriptorSet, 0) != 0) return Error{concat("'", name, "' is not in descriptor set 0")};
+        if (decoration(variable.id, kDescriptorSet, 0) != 0)
+            return Error{concat("'", name, "' is not in descriptor set 0")};
         const Result<BindingKind> kind = kindOf(pointee, variable.storage);
         if (!kind) return Error{concat("'", name, "' is ", kind.error().message)};
         module.bindings.push_back({binding, *kind});

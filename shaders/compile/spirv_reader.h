@@ -34,8 +34,8 @@ struct SpirvModule
 };
 
 /// Reads what pipelines and tests need out of a SPIR-V module with one entry point. Errors: not SPIR-V, truncated, a
-/// descriptor set other than 0, a descriptor that we do not use (uniform blocks, separate images, arrays of descriptors),
-/// push constants over 128 bytes.
+/// descriptor set other than 0, a descriptor that we do not use (uniform blocks, separate images, arrays of
+/// descriptors), push constants over 128 bytes.
 Result<SpirvModule> readSpirv(std::span<const u32> words);
 
 } // namespace helio

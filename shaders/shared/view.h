@@ -26,29 +26,36 @@ HELIO_CONSTANT uint kForwardRadiosity = 6u;
 HELIO_CONSTANT uint kForwardCorners = 7u;  // corner of each vertex of the static mesh
 HELIO_CONSTANT uint kForwardSmooth = 8u;   // smooth_light's values
 
-struct ViewRecord {
+// Push constant of the city's passes: what every vertex and every pixel needs. Software devices read a word of a storage
+// buffer lane by lane, a push constant once.
+struct ForwardParams {
     mat4 clipFromWorld;    // reversed depth: 1 at the near plane, 0 at infinity
+    vec4 sunRow0;          // rows of gridFromWorld, see SunView: x, y in views, z = depth 0..1
+    vec4 sunRow1;
+    vec4 sunRow2;
+    vec4 eye;              // m; w = 1 / length of the haze, 1/m
+};
+HELIO_SIZE(ForwardParams, 128);
+
+// The rest of what one picture needs.
+struct ViewRecord {
     mat4 worldFromClip;
-    mat4 sunFromWorld;     // light space: x, y in grid units (view = integer part), z = depth 0..1
-    vec4 eye;              // m; w = sharpness of the haze, 1/m
     vec4 sunDirection;     // unit, towards the sun; w = 1 when the sun is up
-    vec4 dni;              // W/m2
-    vec4 sunTint;          // display only; 1 for linear output
-    vec4 skyTint;          // display only
-    vec4 zenith;           // radiance of the picture's sky, W/m2/sr; display only
-    vec4 horizon;
+    vec4 sunLight;         // W/m2: DNI x display tint
+    vec4 skyTint;          // display only; 1 for linear output
+    vec4 zenith;           // radiance of the picture's sky, W/m2/sr; w = power of the gradient; display only
+    vec4 horizon;          // w = 1 / length of the haze over the ground beyond the scene, 1/m
     vec4 glow;             // radiance added around the sun
+    vec4 ground;           // radiance of the ground beyond the scene; w = height of the eye above it, m
+    vec4 eye;              // m
     vec2 gridSize;         // views in x and y
-    vec2 shadowTexel;      // m, of the sun raster
-    vec2 shadowSize;       // texels of one view
+    vec2 shadowStep;       // texel of the sun raster in texture coordinates
+    float shadowTexel;     // m, the longer side
+    float sunShear;        // see SunView: added to y a unit of x inside a view
     float depthRange;      // m of light space from depth 0 to 1
     float emissionScale;
-    uint mode;             // kMode...
-    uint smoothLight;      // 1: interpolate E_sky and E_indirect over the static mesh
-    uint patchCount;
-    uint staticVertexCount;
 };
-HELIO_SIZE(ViewRecord, 368);
+HELIO_SIZE(ViewRecord, 224);
 
 // tone: kToneSamples x kToneSamples samples a pixel, tone mapped each, averaged, sRGB
 HELIO_CONSTANT uint kToneGroup = 8u;

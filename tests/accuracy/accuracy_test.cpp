@@ -3,6 +3,7 @@
 // (tests/data/scenes/README.md). Writes the rows of the README's table.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -28,7 +28,8 @@ std::vector<u32> scaleOnDevice(Context& context, const ShaderCode& shader, const
         const Ref<Buffer> out = pass.write(pass.create(BufferDesc{"to", from.size() * sizeof(u32)}), Use::ComputeWrite);
         pass.sideEffect();
         pass.record([=, &shader](PassContext& ctx) {
-            ctx.dispatch(shader, {texels(0, in, VK_FORMAT_R32_UINT), storage(1, out)}, count, groupsFor(count, 64), constants);
+            ctx.dispatch(shader, {texels(0, in, VK_FORMAT_R32_UINT), storage(1, out)}, count, groupsFor(count, 64),
+                         constants);
         });
         return out;
     });
@@ -54,7 +55,8 @@ TEST_F(Compute, OddSizesBothWaysOfReading)
         const std::vector<u32> from = numbers(count);
         const std::vector<u32> expected = scaleOnHost(from, 2);
         EXPECT_EQ(scaleOnDevice(context(), test_shaders::kScaleComp, from), expected) << count << " by texel buffer";
-        EXPECT_EQ(scaleOnDevice(context(), test_shaders::kScaleStorageComp, from), expected) << count << " by storage buffer";
+        EXPECT_EQ(scaleOnDevice(context(), test_shaders::kScaleStorageComp, from), expected)
+            << count << " by storage buffer";
     }
 }
 
@@ -137,7 +139,8 @@ TEST_F(Compute, ManyDispatchesNeedManyDescriptorSets)
                 const Ref<Buffer> next = pass.write(both, Use::ComputeReadWrite);
                 pass.record([=](PassContext& ctx) {
                     const u32 from = step % 2 * kCount;
-                    ctx.dispatch(test_shaders::kStepComp, {storage(0, next)}, StepParams{kCount, from, kCount - from}, Groups{});
+                    ctx.dispatch(test_shaders::kStepComp, {storage(0, next)}, StepParams{kCount, from, kCount - from},
+                                 Groups{});
                 });
                 return next;
             });

@@ -51,7 +51,10 @@ std::vector<glm::vec4> randomLight(u32 count, u64 seed)
     return out;
 }
 
-std::vector<glm::dvec4> toDouble(const std::vector<glm::vec4>& v) { return {v.begin(), v.end()}; }
+std::vector<glm::dvec4> toDouble(const std::vector<glm::vec4>& v)
+{
+    return {v.begin(), v.end()};
+}
 
 class GatherTest : public GpuTest
 {
@@ -114,9 +117,11 @@ TEST(StageTwins, GathersPullsAndPushesByHand)
     b.link(0, 1, 0.5f);
     b.link(0, root, 0.25f);
     const TileView view = b.view();
-    EXPECT_EQ(twin::gather(view, std::vector<glm::vec4>{glm::vec4(1), glm::vec4(2), glm::vec4(8)})[0].sum, glm::dvec4(3.0));
+    EXPECT_EQ(twin::gather(view, std::vector<glm::vec4>{glm::vec4(1), glm::vec4(2), glm::vec4(8)})[0].sum,
+              glm::dvec4(3.0));
     EXPECT_EQ(twin::pullUp(view, std::vector<glm::dvec4>{glm::dvec4(1), glm::dvec4(5)})[root], glm::dvec4(4.0));
-    EXPECT_EQ(twin::pushDown(view, std::vector<glm::dvec4>{glm::dvec4(1), glm::dvec4(2), glm::dvec4(10)})[1], glm::dvec4(12.0));
+    EXPECT_EQ(twin::pushDown(view, std::vector<glm::dvec4>{glm::dvec4(1), glm::dvec4(2), glm::dvec4(10)})[1],
+              glm::dvec4(12.0));
 }
 
 TEST_F(GatherTest, RowsOfAnyLength)
@@ -161,8 +166,9 @@ TEST_F(GatherTest, PagesOfLinks)
     tile.links.clear();
     for (const LinkPage& page : packed->pages)
         tile.links.push_back(
-            {page, makeBuffer(context(), "page",
-                              std::span<const gpu::LinkPairRecord>(packed->pairs).subspan(page.pairFirst, page.pairCount))});
+            {page,
+             makeBuffer(context(), "page",
+                        std::span<const gpu::LinkPairRecord>(packed->pairs).subspan(page.pairFirst, page.pairCount))});
     EXPECT_EQ(gather(tile, light), whole);
 }
 
@@ -207,12 +213,14 @@ protected:
         const Buffer partials = makeBuffer(context(), "partials", std::vector<gpu::ResidualRecord>(updateGroups(tile)));
         const Buffer residual = makeBuffer(context(), "residual", std::vector<gpu::ResidualRecord>(1));
         FrameGraph graph("sweeps");
-        LightRefs light = addFirstLight(graph, tile, {graph.import(eSun), graph.import(eSky)},
-                                        {graph.import(b0), graph.import(radiosity), graph.import(irradiance)}, true, false);
+        LightRefs light =
+            addFirstLight(graph, tile, {graph.import(eSun), graph.import(eSky)},
+                          {graph.import(b0), graph.import(radiosity), graph.import(irradiance)}, true, false);
         UpdateRefs out{light, graph.import(residual)};
         for (u32 k = 0; k < sweeps; ++k) out = addSweep(graph, tile, out.light, graph.import(partials), out.residual);
         execute(graph);
-        Result result{downloadItems<glm::vec4>(context(), irradiance), downloadItems<glm::vec4>(context(), radiosity), {}};
+        Result result{
+            downloadItems<glm::vec4>(context(), irradiance), downloadItems<glm::vec4>(context(), radiosity), {}};
         result.irradiance.resize(tile.patchCount);
         result.radiosity.resize(tile.patchCount);
         result.sums = downloadItems<gpu::ResidualRecord>(context(), residual)[0];
@@ -246,8 +254,10 @@ TEST_F(SweepTest, AgreesWithTheTwin)
         for (u32 i = 0; i < 3000; ++i)
             for (int c = 0; c < 4; ++c) {
                 // All terms are positive, so errors stay relative: about 60 roundings a sweep.
-                EXPECT_NEAR(result.irradiance[i][c], expected.indirect[i][c], sweeps * 60 * kUnit * expected.indirect[i][c]);
-                EXPECT_NEAR(result.radiosity[i][c], expected.radiosity[i][c], sweeps * 60 * kUnit * expected.radiosity[i][c]);
+                EXPECT_NEAR(result.irradiance[i][c], expected.indirect[i][c],
+                            sweeps * 60 * kUnit * expected.indirect[i][c]);
+                EXPECT_NEAR(result.radiosity[i][c], expected.radiosity[i][c],
+                            sweeps * 60 * kUnit * expected.radiosity[i][c]);
             }
         // The change of a late sweep is a small difference of rounded values: 1e-4 of it is far from a wrong norm.
         EXPECT_NEAR(residualOf(result.sums), expected.residual, 1e-4 * expected.residual);

@@ -22,7 +22,8 @@ Ref<Buffer> addScale(FrameGraph& graph, const char* name, Ref<Buffer> from, Ref<
         if (!to.valid()) to = pass.create(BufferDesc{name, kBytes});
         const Ref<Buffer> out = pass.write(to, Use::ComputeWrite);
         pass.record([=](PassContext& ctx) {
-            ctx.dispatch(test_shaders::kScaleStorageComp, {storage(0, from), storage(1, out)}, kCount, groupsFor(kCount, 64));
+            ctx.dispatch(test_shaders::kScaleStorageComp, {storage(0, from), storage(1, out)}, kCount,
+                         groupsFor(kCount, 64));
         });
         return out;
     });

@@ -43,14 +43,22 @@ protected:
     {
         const std::vector<u32> expected = twin::countIds(ids, patchCount);
         const std::vector<u32> zero(patchCount, 0);
-        EXPECT_EQ(count(ids, width, height, patchCount, true, zero), expected) << width << " x " << height << ", aggregated";
-        EXPECT_EQ(count(ids, width, height, patchCount, false, zero), expected) << width << " x " << height << ", plain";
+        EXPECT_EQ(count(ids, width, height, patchCount, true, zero), expected)
+            << width << " x " << height << ", aggregated";
+        EXPECT_EQ(count(ids, width, height, patchCount, false, zero), expected)
+            << width << " x " << height << ", plain";
     }
 };
 
-TEST_F(HistogramTest, BackgroundIsNotCounted) { expectExact(std::vector<u32>(256 * 192, kNoIndex), 256, 192, 7); }
+TEST_F(HistogramTest, BackgroundIsNotCounted)
+{
+    expectExact(std::vector<u32>(256 * 192, kNoIndex), 256, 192, 7);
+}
 
-TEST_F(HistogramTest, OnePatchEverywhere) { expectExact(std::vector<u32>(512 * 256, 3), 512, 256, 4); }
+TEST_F(HistogramTest, OnePatchEverywhere)
+{
+    expectExact(std::vector<u32>(512 * 256, 3), 512, 256, 4);
+}
 
 TEST_F(HistogramTest, EveryTexelAnotherPatch)
 {
@@ -69,7 +77,8 @@ TEST_F(HistogramTest, TheLastPatchCountsAndTheNextIsIgnored)
 
 TEST_F(HistogramTest, SizesThatFillNoGroup)
 {
-    for (const auto& [width, height] : {std::pair(1u, 1u), {1u, 65u}, {65u, 1u}, {63u, 64u}, {64u, 63u}, {97u, 131u}, {257u, 66u}}) {
+    for (const auto& [width, height] :
+         {std::pair(1u, 1u), {1u, 65u}, {65u, 1u}, {63u, 64u}, {64u, 63u}, {97u, 131u}, {257u, 66u}}) {
         std::vector<u32> ids(size_t(width) * height);
         Random random(width * 1000 + height);
         // Runs of random length, as in a picture, and background between them.

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
-#include <regex>
 #include <set>
+#include <sstream>
 
 #include "city/base/file.h"
 #include "shaders/compile/spirv_reader.h"
@@ -26,46 +26,14 @@ struct HostLayout
 
 // offsetof is only conditionally supported on types with GLM members; every compiler in use supports it, and says so.
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
-#define HELIO_AT(member)                                                                                                 \
-    {                                                                                                                  \
-        #member, u32(offsetof(Type, member))                                                                           \
-    }
-#define HELIO_LAYOUT(Name, ...)                                                                                          \
-    {                                                                                                                  \
-        #Name, []() -> HostLayout {                                                                                    \
-            using Type = gpu::Name;                                                                                    \
-            return {u32(sizeof(Type)), {__VA_ARGS__}};                                                                 \
-        }()                                                                                                            \
-    }
+// clang-format off
+#define HELIO_AT(member) {#member, u32(offsetof(Type, member))}
+#define HELIO_LAYOUT(Name, ...) \
+    {#Name, []() -> HostLayout { using Type = gpu::Name; return {u32(sizeof(Type)), {__VA_ARGS__}}; }()}
+// clang-format on
 
 const std::map<std::string, HostLayout> kHost{
-    // shaders/shared/records.h
-    HELIO_LAYOUT(PatchRecord, HELIO_AT(normal), HELIO_AT(area), HELIO_AT(rho), HELIO_AT(emission), HELIO_AT(building), HELIO_AT(sourceFace), HELIO_AT(surface), HELIO_AT(flags)),
-    HELIO_LAYOUT(NodeRecord, HELIO_AT(parent), HELIO_AT(childBegin), HELIO_AT(childCount), HELIO_AT(area)),
-    HELIO_LAYOUT(NodeInfoRecord, HELIO_AT(centroid), HELIO_AT(height), HELIO_AT(normal), HELIO_AT(kind), HELIO_AT(coverage), HELIO_AT(building), HELIO_AT(name), HELIO_AT(pad0)),
-    HELIO_LAYOUT(VertexRecord, HELIO_AT(position), HELIO_AT(patchId), HELIO_AT(normal), HELIO_AT(albedo)),
-    HELIO_LAYOUT(InstanceRecord, HELIO_AT(worldFromLocal), HELIO_AT(patchId), HELIO_AT(pad0), HELIO_AT(pad1), HELIO_AT(pad2)),
-    HELIO_LAYOUT(DrawRecord, HELIO_AT(indexCount), HELIO_AT(instanceCount), HELIO_AT(firstIndex), HELIO_AT(vertexOffset), HELIO_AT(firstInstance)),
-    HELIO_LAYOUT(SkyPatchRecord, HELIO_AT(direction), HELIO_AT(solidAngle)),
-    // shaders/shared/sun.h
-    HELIO_LAYOUT(SunRasterParams, HELIO_AT(clipFromWorld)),
-    HELIO_LAYOUT(HistogramParams, HELIO_AT(width), HELIO_AT(height), HELIO_AT(patchCount)),
-    HELIO_LAYOUT(SunEnergyParams, HELIO_AT(direction), HELIO_AT(texelArea), HELIO_AT(dni), HELIO_AT(patchCount), HELIO_AT(minSamples), HELIO_AT(minCosine), HELIO_AT(pad0)),
-    HELIO_LAYOUT(SunTallyRecord, HELIO_AT(flagged), HELIO_AT(excess), HELIO_AT(lit), HELIO_AT(pad0)),
-    // shaders/shared/solve.h
-    HELIO_LAYOUT(ChildRecord, HELIO_AT(node), HELIO_AT(weight)),
-    HELIO_LAYOUT(LinkPairRecord, HELIO_AT(column0), HELIO_AT(factor0), HELIO_AT(column1), HELIO_AT(factor1)),
-    HELIO_LAYOUT(SkyParams, HELIO_AT(patchCount)),
-    HELIO_LAYOUT(FirstLightParams, HELIO_AT(patchCount), HELIO_AT(emissionScale), HELIO_AT(indirectScale), HELIO_AT(pad0)),
-    HELIO_LAYOUT(LevelParams, HELIO_AT(first), HELIO_AT(count), HELIO_AT(patchCount)),
-    HELIO_LAYOUT(GatherParams, HELIO_AT(rowFirst), HELIO_AT(rowCount), HELIO_AT(pairFirst)),
-    HELIO_LAYOUT(UpdateParams, HELIO_AT(patchCount)),
-    HELIO_LAYOUT(ResidualRecord, HELIO_AT(change), HELIO_AT(scale), HELIO_AT(radiosity)),
-    HELIO_LAYOUT(ResidualParams, HELIO_AT(partialCount)),
-    HELIO_LAYOUT(SmoothParams, HELIO_AT(cornerCount)),
-    // shaders/shared/view.h
-    HELIO_LAYOUT(ViewRecord, HELIO_AT(clipFromWorld), HELIO_AT(worldFromClip), HELIO_AT(sunFromWorld), HELIO_AT(eye), HELIO_AT(sunDirection), HELIO_AT(dni), HELIO_AT(sunTint), HELIO_AT(skyTint), HELIO_AT(zenith), HELIO_AT(horizon), HELIO_AT(glow), HELIO_AT(gridSize), HELIO_AT(shadowTexel), HELIO_AT(shadowSize), HELIO_AT(depthRange), HELIO_AT(emissionScale), HELIO_AT(mode), HELIO_AT(smoothLight), HELIO_AT(patchCount), HELIO_AT(staticVertexCount)),
-    HELIO_LAYOUT(ToneParams, HELIO_AT(width), HELIO_AT(height), HELIO_AT(samples), HELIO_AT(mode), HELIO_AT(exposure), HELIO_AT(scale)),
+#include "layout_table.inc" // made from the headers' text at build time
 };
 
 /// Names of the structs between HELIO_SHARED_BEGIN and HELIO_SHARED_END of all shared headers.
@@ -75,9 +43,9 @@ std::set<std::string> structsInHeaders()
     for (const auto& entry : std::filesystem::directory_iterator(HELIO_SHADER_SOURCES)) {
         const Result<std::string> text = readTextFile(entry.path());
         EXPECT_TRUE(text) << text.error().message;
-        const std::regex pattern(R"(struct\s+(\w+)\s*\{)");
-        for (auto it = std::sregex_iterator(text->begin(), text->end(), pattern); it != std::sregex_iterator(); ++it) {
-            names.insert((*it)[1]);
+        std::istringstream lines(*text);
+        for (std::string line; std::getline(lines, line);) {
+            if (line.rfind("struct ", 0) == 0) names.insert(line.substr(7, line.find_first_of(" {", 7) - 7));
         }
     }
     return names;
@@ -144,12 +112,14 @@ TEST(LayoutOffsets, ArraysInsideStructsAreTight)
 
 TEST(SpirvReader, BadInputIsRefused)
 {
-    const std::vector<u32> good(test_shaders::kLayoutProbeComp.words.begin(), test_shaders::kLayoutProbeComp.words.end());
+    const std::vector<u32> good(test_shaders::kLayoutProbeComp.words.begin(),
+                                test_shaders::kLayoutProbeComp.words.end());
     EXPECT_FALSE(readSpirv({}));
     std::vector<u32> noMagic = good;
     noMagic[0] = 1;
     EXPECT_FALSE(readSpirv(noMagic));
-    // Every cut inside an instruction is seen; a cut between two is a shorter module, which is not this reader's business.
+    // Every cut inside an instruction is seen; a cut between two is a shorter module, which is not this reader's
+    // business.
     std::vector<u32> cut(good.begin(), good.begin() + 6);
     const Result<SpirvModule> module = readSpirv(cut);
     ASSERT_FALSE(module);

@@ -39,8 +39,8 @@ std::vector<Corner> scene()
     return corners;
 }
 
-/// What the pixel centre of column x and row y (row 0 on top) sees of the scene: x < 0 is columns 0..7 of 17 (the centre of
-/// column 8 lies on x = 0, on the edge that the left rectangle does not own), y > 0 is rows 0..4 of 10.
+/// What the pixel centre of column x and row y (row 0 on top) sees of the scene: x < 0 is columns 0..7 of 17 (the
+/// centre of column 8 lies on x = 0, on the edge that the left rectangle does not own), y > 0 is rows 0..4 of 10.
 u32 expectedId(u32 x, u32 y)
 {
     if (y < 5) return 8;
@@ -66,14 +66,16 @@ struct Pictures
 };
 
 /// Renders into layer 1 of two depth layers; layer 0 is cleared to 0.5.
-Pictures renderScene(Context& context, const std::function<void(PassBuilder&)>& declare, const std::function<void(Drawing&)>& draw)
+Pictures renderScene(Context& context, const std::function<void(PassBuilder&)>& declare,
+                     const std::function<void(Drawing&)>& draw)
 {
     FrameGraph graph("raster");
     Ref<Image> ids, depths;
     graph.addPass("raster", [&](PassBuilder& pass) {
         declare(pass);
         ids = pass.write(pass.create(ImageDesc{"ids", kWidth, kHeight, VK_FORMAT_R32_UINT}), Use::ColorTarget);
-        depths = pass.write(pass.create(ImageDesc{"depths", kWidth, kHeight, VK_FORMAT_D32_SFLOAT, 2}), Use::DepthTarget);
+        depths =
+            pass.write(pass.create(ImageDesc{"depths", kWidth, kHeight, VK_FORMAT_D32_SFLOAT, 2}), Use::DepthTarget);
         pass.sideEffect();
         pass.record([=](PassContext& ctx) {
             ctx.render({.colors = {}, .depth = DepthAttachment{depths, 0.5f, 0}}, [](Drawing&) {});
@@ -133,7 +135,8 @@ Pictures renderIndexed(Context& context, const std::function<void(Drawing&, Ref<
     // The last six indices are the first rectangle and the other way round.
     const std::vector<VkDrawIndexedIndirectCommand> commands{{6, 1, 6, 0, 1}, {6, 1, 0, 0, 1}};
     const Buffer arguments = makeBuffer(context, "arguments", commands);
-    GraphicsPipelineDesc desc{.vertex = &test_shaders::kTrianglesAttributesVert, .fragment = &test_shaders::kTrianglesFrag};
+    GraphicsPipelineDesc desc{.vertex = &test_shaders::kTrianglesAttributesVert,
+                              .fragment = &test_shaders::kTrianglesFrag};
     desc.vertexSlots = {{sizeof(Corner), false}, {sizeof(u32), true}};
     desc.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
                        {1, 0, VK_FORMAT_R32_UINT, offsetof(Corner, id)},
@@ -167,7 +170,8 @@ TEST_F(Raster, AttributesIndicesAndInstances)
 TEST_F(Raster, IndirectDraws)
 {
     if (!context().facts().drawIndirectFirstInstance) GTEST_SKIP() << "the device has no drawIndirectFirstInstance";
-    expectScene(renderIndexed(context(), [](Drawing& draw, Ref<Buffer> arguments) { draw.drawIndexedIndirect(arguments, 0, 2); }));
+    expectScene(renderIndexed(context(),
+                              [](Drawing& draw, Ref<Buffer> arguments) { draw.drawIndexedIndirect(arguments, 0, 2); }));
 }
 
 TEST_F(Raster, CullingKeepsCounterClockwise)
@@ -236,7 +240,8 @@ TEST_F(Raster, ShadowSamplerComparesDepthLayers)
     });
     const Ref<Buffer> lit = graph.addPass("compare", [&](PassBuilder& pass) {
         pass.read(depths, Use::ComputeSample);
-        const Ref<Buffer> to = pass.write(pass.create(BufferDesc{"lit", kWidth * kHeight * sizeof(float)}), Use::ComputeWrite);
+        const Ref<Buffer> to =
+            pass.write(pass.create(BufferDesc{"lit", kWidth * kHeight * sizeof(float)}), Use::ComputeWrite);
         pass.sideEffect();
         pass.record([=](PassContext& ctx) {
             struct Params
@@ -244,8 +249,8 @@ TEST_F(Raster, ShadowSamplerComparesDepthLayers)
                 u32 layer;
                 float reference;
             };
-            ctx.dispatch(test_shaders::kCompareComp, {sampled(0, depths, Sampler::Shadow), storage(1, to)}, Params{1, 0.6f},
-                         groupsFor(kWidth * kHeight, 64));
+            ctx.dispatch(test_shaders::kCompareComp, {sampled(0, depths, Sampler::Shadow), storage(1, to)},
+                         Params{1, 0.6f}, groupsFor(kWidth * kHeight, 64));
         });
         return to;
     });

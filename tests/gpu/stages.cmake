@@ -5,6 +5,12 @@ target_link_libraries(stage_test_support PUBLIC city_format)
 add_executable(gpu_stages_test
     gpu/gather_test.cpp
     gpu/histogram_test.cpp
+    gpu/renderer_test.cpp
     gpu/sun_energy_test.cpp)
 target_link_libraries(gpu_stages_test PRIVATE helio_gpu_fixture stage_test_support engine_view GTest::gtest_main)
 gtest_discover_tests(gpu_stages_test PROPERTIES LABELS gpu)
+
+# What the stages decide without a device.
+add_executable(engine_unit_test unit/engine_tables_test.cpp unit/engine_view_test.cpp)
+target_link_libraries(engine_unit_test PRIVATE stage_test_support engine_view GTest::gtest_main)
+gtest_discover_tests(engine_unit_test PROPERTIES LABELS unit)

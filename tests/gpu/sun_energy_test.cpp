@@ -46,7 +46,8 @@ TEST_F(SunEnergyTest, AgreesWithTheTwin)
         const auto part = [&] { return float(2.0 * random.uniform() - 1.0); };
         const float x = part(), y = part();
         b.patch(glm::normalize(glm::vec3(x, y, part() + 0.5f)), float(0.02 + random.uniform()), kGrey);
-        const double alone = b.patches[i].area * std::max(0.0, glm::dot(glm::dvec3(b.patches[i].normal), sun)) / kTexelArea;
+        const double alone =
+            b.patches[i].area * std::max(0.0, glm::dot(glm::dvec3(b.patches[i].normal), sun)) / kTexelArea;
         counts.push_back(u32(alone * 1.2 * random.uniform()));
     }
     std::vector<u32> tops;
@@ -65,14 +66,16 @@ TEST_F(SunEnergyTest, AgreesWithTheTwin)
     const Buffer tally = makeBuffer(context(), "tally", std::vector<gpu::SunTallyRecord>(1));
     FrameGraph graph("sun energy");
     (void)addSunEnergy(graph, *tile, graph.import(countBuffer), graph.import(density),
-                       {graph.import(irradiance), graph.import(tally)}, {glm::vec3(sun), glm::vec4(800.0f), kTexelArea});
+                       {graph.import(irradiance), graph.import(tally)},
+                       {glm::vec3(sun), glm::vec4(800.0f), kTexelArea});
     ASSERT_TRUE(graph.compile(context()).ok());
     Recorder recorder(context());
     recorder.begin();
     graph.execute(recorder);
     recorder.submitAndWait();
 
-    const twin::SunEnergy expected = twin::sunEnergy(view, counts, sun, 800.0, kTexelArea, kMinSunSamples, kMinSunCosine);
+    const twin::SunEnergy expected =
+        twin::sunEnergy(view, counts, sun, 800.0, kTexelArea, kMinSunSamples, kMinSunCosine);
     const auto result = downloadItems<glm::vec4>(context(), irradiance);
     for (u32 i = 0; i < kPatches; ++i) EXPECT_NEAR(result[i].w, expected.irradiance[i].w, 1e-3) << i;
     const auto seen = downloadItems<gpu::SunTallyRecord>(context(), tally)[0];
@@ -85,8 +88,8 @@ TEST_F(SunEnergyTest, AgreesWithTheTwin)
 
 TEST_F(SunEnergyTest, ABoxOnTheGroundShadesWhatItMust)
 {
-    // Ground of 20 x 20 m as 400 patches, a box of 4 x 4 x 3 m in the middle; sun from the west at 45 degrees: the shadow is
-    // the strip x in [2, 5], y in [-2, 2].
+    // Ground of 20 x 20 m as 400 patches, a box of 4 x 4 x 3 m in the middle; sun from the west at 45 degrees: the
+    // shadow is the strip x in [2, 5], y in [-2, 2].
     TileBuilder b;
     for (int y = -10; y < 10; ++y)
         for (int x = -10; x < 10; ++x) {
@@ -107,9 +110,9 @@ TEST_F(SunEnergyTest, ABoxOnTheGroundShadesWhatItMust)
             // A texel of 1 cm off along two edges of a square metre is 2 %.
             EXPECT_NEAR(light.sun[size_t((y + 10) * 20 + x + 10)].w, dark ? 0.0 : lit, 0.02 * lit) << x << ", " << y;
         }
-    EXPECT_NEAR(light.sun[box].w, lit, 0.01 * lit);            // west side
-    EXPECT_EQ(light.sun[box + 1].w, 0.0f);                     // east side: the sun is behind it
-    EXPECT_NEAR(light.sun[box + 5].w, lit, 0.01 * lit);        // roof
+    EXPECT_NEAR(light.sun[box].w, lit, 0.01 * lit);     // west side
+    EXPECT_EQ(light.sun[box + 1].w, 0.0f);              // east side: the sun is behind it
+    EXPECT_NEAR(light.sun[box + 5].w, lit, 0.01 * lit); // roof
 }
 
 TEST_F(SunEnergyTest, AzimuthRunsClockwiseFromNorth)
@@ -146,7 +149,8 @@ TEST_F(SunEnergyTest, AnAssetCarriesItsPatch)
 
 TEST_F(SunEnergyTest, SmallPatchesTakeTheRatioAround)
 {
-    // A wall of one square metre in strips of 1 mm, half of it in the shadow of a plate: no strip has 16 texels of 2 cm.
+    // A wall of one square metre in strips of 1 mm, half of it in the shadow of a plate: no strip has 16 texels of 2
+    // cm.
     TileBuilder b;
     std::vector<u32> strips;
     for (int i = 0; i < 1000; ++i) {

@@ -58,15 +58,17 @@ TEST_F(Transfer, MovedBuffersKeepTheirContents)
 
 TEST_F(Transfer, ImageLayersComeBackAsTheyWent)
 {
-    const Image image(context(), {"ids", 33, 17, VK_FORMAT_R32_UINT, 3,
-                                  VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    const Image image(context(),
+                      {"ids", 33, 17, VK_FORMAT_R32_UINT, 3,
+                       VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     std::vector<std::vector<u32>> layers;
     for (u32 layer = 0; layer < 3; ++layer) {
         layers.push_back(pattern(33 * 17));
         layers.back()[layer] = layer;
         uploadImage(context(), image, std::as_bytes(std::span(layers.back())), layer);
     }
-    for (u32 layer = 0; layer < 3; ++layer) EXPECT_EQ(downloadTexels<u32>(context(), image, layer), layers[layer]) << layer;
+    for (u32 layer = 0; layer < 3; ++layer)
+        EXPECT_EQ(downloadTexels<u32>(context(), image, layer), layers[layer]) << layer;
 }
 
 TEST_F(Transfer, HostBuffersAreMapped)

@@ -18,10 +18,15 @@ bool anyContains(const std::vector<std::string>& messages, const std::string& pa
     return false;
 }
 
-enum class Plant { Nothing, FillThenRead, DispatchThenRead };
+enum class Plant
+{
+    Nothing,
+    FillThenRead,
+    DispatchThenRead
+};
 
-/// Two steps in one pass, the second of which reads what the first one wrote; with the barrier between, or planted without.
-/// (The layer overlooks two writes through descriptors on purpose, so each plant is a read after a write.)
+/// Two steps in one pass, the second of which reads what the first one wrote; with the barrier between, or planted
+/// without. (The layer overlooks two writes through descriptors on purpose, so each plant is a read after a write.)
 void runPlanted(Context& context, Plant plant)
 {
     const u64 bytes = 64 * sizeof(u32);

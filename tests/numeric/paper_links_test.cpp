@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "tests/numeric/fixtures.h"
@@ -59,15 +60,20 @@ TEST(PaperLinks, LeafRuleKeepsTheLightThatThePrintedAlgorithmLoses)
 
 TEST(PaperLinks, RefinesTheNodeThatLooksLarge)
 {
-    // A small patch before a large one: F small -> large is large, so the large one is to be opened. The printed rule opens the
-    // small one, which is a leaf here, and the light is gone.
-    std::vector<Face> faces = grid({4.5, 4.5, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, {{}, 0});
+    // A small square before a large one, both with children: F small -> large is large, F large -> small is not. The large one is
+    // to be opened, the small one stays whole. The printed rule opens the small one, down to its leaves, and the light is gone.
+    std::vector<Face> faces = grid({4.5, 4.5, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2, {{}, 0});
     append(faces, grid({0, 0, 4}, {0, 10, 0}, {10, 0, 0}, 4, 4, {{}, 1}));
     const NodeTree tree = makeTree(faces);
-    const std::vector<NodePair> repaired = paperLinks(tree, {.epsilon = 0.3});
+    const std::vector<NodePair> repaired = paperLinks(tree, {.epsilon = 0.2});
     EXPECT_GT(repaired.size(), 1u);
-    for (const NodePair& pair : repaired) EXPECT_LE(discFactor(tree.nodes[pair.a], tree.nodes[pair.b]), 0.3);
-    EXPECT_TRUE(paperLinks(tree, {.epsilon = 0.3, .literal = true}).empty());
+    for (const NodePair& pair : repaired) {
+        EXPECT_TRUE(tree.isPlanarRoot(std::min(pair.a, pair.b)) || tree.isPlanarRoot(std::max(pair.a, pair.b)));
+        EXPECT_NEAR(std::min(tree.nodes[pair.a].centroid.z, tree.nodes[pair.b].centroid.z), 0.0, 1e-9);
+        const u32 small = tree.nodes[pair.a].centroid.z < 1.0 ? pair.a : pair.b;
+        EXPECT_NEAR(tree.nodes[small].area, 1.0, 1e-9);
+    }
+    EXPECT_TRUE(paperLinks(tree, {.epsilon = 0.2, .literal = true}).empty());
 }
 
 TEST(PaperLinks, CutOffByBoxesIsMonotoneUnderRefinement)

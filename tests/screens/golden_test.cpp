@@ -36,11 +36,14 @@ struct Screen
     Tolerance tolerance;
 };
 
-void PrintTo(const Screen& screen, std::ostream* out) { *out << screen.file; }
+void PrintTo(const Screen& screen, std::ostream* out)
+{
+    *out << screen.file;
+}
 
 constexpr const char* kCityCamera = "-30,-48,30,0,-2,4,45";
 constexpr const char* kStreetCamera = "-5,-34,1.7,-5,20,6,60";
-constexpr const char* kSceneCamera = "-28,-30,24,9,9,3,45";
+constexpr const char* kSceneCamera = "12,-27,54,48,51,4,38";
 
 const Screen kScreens[] = {
     {"city_ids.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeId}, kIdentical},
@@ -66,7 +69,7 @@ const Screen kScreens[] = {
      kDisplayTolerance},
     {"city_final_low_sun.png", TestPack::City, kCityCamera, 265, 9, {.samples = 2}, kDisplayTolerance},
     {"city_final_street.png", TestPack::City, kStreetCamera, 150, 55, {.samples = 2}, kDisplayTolerance},
-    {"scene_s_final.png", TestPack::SceneS, kSceneCamera, 200, 40, {.samples = 2}, kDisplayTolerance},
+    {"scene_s_final.png", TestPack::SceneS, kSceneCamera, 110, 35, {.samples = 2}, kDisplayTolerance},
     {"scene_s_ids.png", TestPack::SceneS, kSceneCamera, 200, 40, {.mode = gpu::kModeId}, kIdentical},
 };
 

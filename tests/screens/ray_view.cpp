@@ -48,8 +48,17 @@ bool isIdentity(const gpu::InstanceRecord& instance)
 
 bool sameSurface(const RayHit& a, const RayHit& b, double distance)
 {
-    return a.patch == b.patch && a.lit == b.lit && glm::dot(a.normal, b.normal) > kSamePlaneCosine &&
+    return b.patch != kNoIndex && a.lit == b.lit && glm::dot(a.normal, b.normal) > kSamePlaneCosine &&
            std::abs(glm::dot(b.position - a.position, a.normal)) < kPlaneSlack + kPlaneSlackByDistance * distance;
+}
+
+/// Does the test hold for one of the pixels of the 3 x 3 block about (x, y)?
+template <class Test> bool anyNeighbour(const RayPicture& picture, u32 x, u32 y, Test&& test)
+{
+    for (u32 v = y == 0 ? 0 : y - 1; v <= std::min(y + 1, picture.height - 1); ++v)
+        for (u32 u = x == 0 ? 0 : x - 1; u <= std::min(x + 1, picture.width - 1); ++u)
+            if (test(picture.at(u, v))) return true;
+    return false;
 }
 
 } // namespace
@@ -159,10 +168,13 @@ bool nearEdge(const RayPicture& picture, glm::dvec3 eye, u32 x, u32 y)
 {
     const RayHit& here = picture.at(x, y);
     const double distance = glm::length(here.position - eye);
-    for (u32 v = y == 0 ? 0 : y - 1; v <= std::min(y + 1, picture.height - 1); ++v)
-        for (u32 u = x == 0 ? 0 : x - 1; u <= std::min(x + 1, picture.width - 1); ++u)
-            if (!sameSurface(here, picture.at(u, v), distance)) return true;
-    return false;
+    return anyNeighbour(picture, x, y, [&](const RayHit& other) { return !sameSurface(here, other, distance); });
+}
+
+bool nearPatchBorder(const RayPicture& picture, u32 x, u32 y)
+{
+    const u32 patch = picture.at(x, y).patch;
+    return anyNeighbour(picture, x, y, [&](const RayHit& other) { return other.patch != patch; });
 }
 
 Agreement compareVisibility(const RayPicture& rays, glm::dvec3 eye, std::span<const float> visibility)

@@ -78,10 +78,13 @@ struct RayPicture
 };
 RayPicture tracePicture(const RayScene& scene, const RayCamera& camera, glm::dvec3 toSun, u32 width, u32 height);
 
-/// Is there an edge within one pixel: does one of the eight neighbours see another patch or nothing, another plane
-/// (normals more than 3 degrees apart, or off the pixel's plane by more than 1 cm + 0.1 % of the distance), or the
-/// other visibility?
+/// Is there an edge within one pixel: does one of the eight neighbours see nothing, another plane (normals more than 3
+/// degrees apart, or off the pixel's plane by more than 1 cm + 0.1 % of the distance), or the other visibility? Borders
+/// between patches of one plane are no edges of what is seen.
 bool nearEdge(const RayPicture& picture, glm::dvec3 eye, u32 x, u32 y);
+
+/// Does one of the eight neighbours see another patch?
+bool nearPatchBorder(const RayPicture& picture, u32 x, u32 y);
 
 struct Agreement
 {

@@ -17,9 +17,6 @@ target_link_libraries(window_test PRIVATE engine_window GTest::gtest_main)
 add_test(NAME window_test COMMAND xvfb-run -a -s "-screen 0 640x360x24" $<TARGET_FILE:window_test>)
 set_tests_properties(window_test PROPERTIES LABELS screens TIMEOUT 120)
 
-if(NOT TARGET heliopolis-fly)
-    return()
-endif()
 add_library(screens_city STATIC screens/golden_check.cpp screens/test_packs.cpp screens/visibility_check.cpp)
 target_link_libraries(screens_city PUBLIC screens_support engine_view PRIVATE city_bake GTest::gtest)
 target_compile_definitions(screens_city PUBLIC

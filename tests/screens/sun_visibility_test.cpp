@@ -16,7 +16,10 @@ struct View
     const char* camera;
     double sunAzimuth, sunElevation;
 };
-void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
+void PrintTo(const View& view, std::ostream* out)
+{
+    *out << view.name;
+}
 
 constexpr View kViews[] = {
     {"aerial", "aerial", 110, 35},

@@ -12,7 +12,7 @@ RayCamera rayCamera(const Camera& camera, double aspect);
 /// pixel.
 Agreement checkSunVisibility(Renderer& renderer, const RayScene& rays, const Camera& camera, u32 width, u32 height);
 
-/// Share of the pixels without an edge within one pixel where picture and rays see the same patch.
+/// Share of the pixels without an edge or a patch's border within one pixel where picture and rays see the same patch.
 double checkPatchIds(Renderer& renderer, const RayScene& rays, const Camera& camera, u32 width, u32 height);
 
 /// "99.87 % of 123 456 pixels agree (...)": one line.

@@ -54,8 +54,8 @@ std::vector<glm::dvec4> pushDown(const TileView& tile, std::span<const glm::dvec
     return out;
 }
 
-SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec3 towardsSun, double dni, double texelArea,
-                    double minSamples, double minCosine)
+SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec3 towardsSun, double dni,
+                    double texelArea, double minSamples, double minCosine)
 {
     // Areas perpendicular to the sun, seen and unoccluded, summed over the patches below each node.
     struct Areas

@@ -31,8 +31,8 @@ struct SunEnergy
     std::vector<glm::dvec4> irradiance;
     u32 lit = 0, flagged = 0, excess = 0;
 };
-SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec3 towardsSun, double dni, double texelArea,
-                    double minSamples, double minCosine);
+SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec3 towardsSun, double dni,
+                    double texelArea, double minSamples, double minCosine);
 
 /// Jacobi sweeps B = B0 + rho F B from B = B0. Residual: see residualOf in engine/stages/gather.h.
 struct Solution

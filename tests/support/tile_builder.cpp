@@ -83,8 +83,14 @@ u32 TileBuilder::group(const std::vector<u32>& members)
     return id;
 }
 
-void TileBuilder::link(u32 receiver, u32 sender, float factor) { links_[receiver].push_back({sender, factor}); }
-void TileBuilder::sky(u32 patchId, float factor) { sky_[patchId] = factor; }
+void TileBuilder::link(u32 receiver, u32 sender, float factor)
+{
+    links_[receiver].push_back({sender, factor});
+}
+void TileBuilder::sky(u32 patchId, float factor)
+{
+    sky_[patchId] = factor;
+}
 
 TileView TileBuilder::view()
 {

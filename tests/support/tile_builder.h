@@ -18,7 +18,8 @@ public:
     u32 quad(std::array<glm::vec3, 4> corners, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f));
     /// A patch that is not drawn.
     u32 patch(glm::vec3 normal, float area, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f));
-    /// The six outer sides of a box (or, inwards, the six inner ones); returns the first of six ids: -x, +x, -y, +y, -z, +z.
+    /// The six outer sides of a box (or, inwards, the six inner ones); returns the first of six ids: -x, +x, -y, +y,
+    /// -z, +z.
     u32 box(glm::vec3 lo, glm::vec3 hi, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f), bool inwards = false);
     /// Draws one more quad of local corners with an instance's transform, as an asset of a patch.
     void asset(u32 patchId, std::array<glm::vec3, 4> corners, std::array<glm::vec4, 3> worldFromLocal);

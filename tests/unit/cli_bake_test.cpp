@@ -116,6 +116,25 @@ TEST_F(BakeCli, RefusesBadRules)
     expectRefusal("town.geojson --rules asset.cga -o p", "facade/none.glb");
 }
 
+TEST_F(BakeCli, FindsAssetsBesideTheRules)
+{
+    put("town.geojson", kTown);
+    for (const char* folder : {"rules", "rules/assets", "assets"}) std::filesystem::create_directory(temp_ / folder);
+    std::filesystem::copy_file(HELIO_ASSETS "/facade/sill.glb", temp_ / "rules/assets/near.glb");
+    std::filesystem::copy_file(HELIO_ASSETS "/facade/sill.glb", temp_ / "assets/far.glb");
+    put("rules/own.cga",
+        "Lot --> extrude(9) comp(f) { side : Wall | top : Roof. }\n"
+        "Wall --> split(x) { '0.3 : i(\"near.glb\") | '0.3 : i(\"far.glb\") | ~1 : i(\"facade/sill.glb\") }\n");
+    const RunResult result = bake("town.geojson --rules rules/own.cga --rays 16 -o p");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const Result<Pack> pack = Pack::open(temp_ / "p");
+    ASSERT_TRUE(pack.ok());
+    // The static mesh and three assets; four walls outside and four in the court of one house, four walls of the other.
+    ASSERT_EQ(pack->tile().draws.size(), 4u);
+    for (u32 draw = 1; draw < 4; ++draw) EXPECT_EQ(pack->tile().draws[draw].instanceCount, 12u);
+    EXPECT_EQ(pack->index().rules, "own.cga");
+}
+
 TEST_F(BakeCli, RefusesDamagedPacks)
 {
     ASSERT_TRUE(writePack(test::samplePack(), temp_ / "good").ok());
@@ -208,6 +227,25 @@ TEST_F(BakeCli, OptionsChangeTheBytes)
     EXPECT_EQ(Pack::open(temp_ / "b")->index().seed, 2u);
     EXPECT_EQ(Pack::open(temp_ / "c")->index().method, "paper");
     EXPECT_EQ(Pack::open(temp_ / "a")->index().source, "town.geojson");
+}
+
+TEST_F(BakeCli, AttributesCanBeSet)
+{
+    put("town.geojson", kTown);
+    put("own.cga", "attr h = 5\nattr flat = false\nattr kind = \"a\"\nLot --> case flat : NIL case kind == \"b\" : "
+                   "extrude(2 * h) else : extrude(h)\n");
+    const auto top = [&](const std::string& set) {
+        const RunResult result = bake("town.geojson --rules own.cga --rays 16 -o p " + set);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        const Result<Pack> pack = Pack::open(temp_ / "p");
+        return pack ? pack->index().boundsMax.z : -1.0f;
+    };
+    EXPECT_EQ(top(""), 5.0f);
+    EXPECT_EQ(top("--set h=7.5"), 7.5f);
+    EXPECT_EQ(top("--set kind=b --set h=3"), 6.0f);
+    EXPECT_EQ(top("--set flat=true"), 0.0f) << "only the ground is left";
+    expectRefusal("town.geojson --rules own.cga -o q --set hight=3", "no attribute 'hight'");
+    expectRefusal("town.geojson --rules own.cga -o q --set h", "NAME=VALUE");
 }
 
 TEST_F(BakeCli, StatisticsAgreeWithThePack)

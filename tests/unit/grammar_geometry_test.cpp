@@ -25,9 +25,9 @@ Geometry flat(const std::vector<glm::dvec2>& outer, const std::vector<std::vecto
     return geometry;
 }
 
-const std::vector<glm::dvec2> kL = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}}; // area 64
+const std::vector<glm::dvec2> kL = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};             // area 64
 const std::vector<glm::dvec2> kU = {{0, 0}, {9, 0}, {9, 6}, {6, 6}, {6, 3}, {3, 3}, {3, 6}, {0, 6}}; // area 45
-const std::vector<glm::dvec2> kHole = {{3, 3}, {3, 7}, {7, 7}, {7, 3}}; // clockwise, 16 m2
+const std::vector<glm::dvec2> kHole = {{3, 3}, {3, 7}, {7, 7}, {7, 3}};                              // clockwise, 16 m2
 const std::vector<glm::dvec2> kSquare = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 
 /// Sum of all face areas as vectors: zero for every closed surface.
@@ -73,7 +73,17 @@ TEST(GrammarGeometry, ClipOfAPolygonWithAHole)
     EXPECT_TRUE(touching.faces[0].polygon.holes.empty());
 }
 
-// Random star-shaped polygons with a hole, cut into random slabs: the areas add up, and every piece looks to the same side.
+TEST(GrammarGeometry, CornersThatTouchTheCutLeaveNoSliver)
+{
+    // The inner corner of the L lies 0.05 micrometres beyond the cut.
+    const Geometry l = flat({{0, 0}, {10, 0}, {10, 4}, {4 + 5e-8, 4}, {4 + 5e-8, 10}, {0, 10}});
+    const Geometry piece = clipSlab(l, 0, 4, 10);
+    ASSERT_EQ(piece.faces.size(), 1u);
+    EXPECT_EQ(piece.faces[0].polygon.outer.size(), 4u);
+}
+
+// Random star-shaped polygons with a hole, cut into random slabs: the areas add up, and every piece looks to the same
+// side.
 TEST(GrammarGeometry, SlabsAddUp)
 {
     Random random(7);
@@ -129,7 +139,8 @@ TEST(GrammarGeometry, FacesThatShareAnEdgeGetNoWallThere)
 
 TEST(GrammarGeometry, CutSolidsAreClosedAgain)
 {
-    for (const auto& [base, whole] : {std::pair(flat(kSquare, {kHole}), 84.0), std::pair(flat(kL), 64.0), std::pair(flat(kU), 45.0)}) {
+    for (const auto& [base, whole] :
+         {std::pair(flat(kSquare, {kHole}), 84.0), std::pair(flat(kL), 64.0), std::pair(flat(kU), 45.0)}) {
         const Geometry solid = extrude(base, {0, 6, 0}, false);
         const auto [low, high] = bounds(solid);
         for (int axis = 0; axis < 3; ++axis) {
@@ -156,8 +167,9 @@ TEST(GrammarGeometry, Measures)
     EXPECT_TRUE(isConcave(flat(kSquare, {kHole})));
     EXPECT_FALSE(isConcave(extrude(flat(kSquare), {0, 2, 0}, false)));
     EXPECT_TRUE(isRectangular(flat(kSquare), 1));
-    EXPECT_TRUE(isRectangular(flat({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}}), 1)); // a collinear corner does not count
-    EXPECT_FALSE(isRectangular(flat({{0, 0}, {10, 0}, {10.5, 10}, {0, 10}}), 1));       // 2.9 degrees off
+    EXPECT_TRUE(
+        isRectangular(flat({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}}), 1));    // a collinear corner does not count
+    EXPECT_FALSE(isRectangular(flat({{0, 0}, {10, 0}, {10.5, 10}, {0, 10}}), 1)); // 2.9 degrees off
     EXPECT_TRUE(isRectangular(flat({{0, 0}, {10, 0}, {10.5, 10}, {0, 10}}), 5));
     EXPECT_TRUE(isPlanar(flat(kL)));
     EXPECT_FALSE(isPlanar(extrude(flat(kSquare), {0, 2, 0}, false)));
@@ -192,7 +204,11 @@ TEST(GrammarSelectors, Slopes)
 {
     const auto kindAt = [](double slope) {
         std::string kinds;
-        for (const auto& [selector, letter] : {std::pair(Selector::Vertical, 'v'), {Selector::Horizontal, 'h'}, {Selector::Aslant, 'a'}, {Selector::Nutant, 'n'}, {Selector::Side, 's'}})
+        for (const auto& [selector, letter] : {std::pair(Selector::Vertical, 'v'),
+                                               {Selector::Horizontal, 'h'},
+                                               {Selector::Aslant, 'a'},
+                                               {Selector::Nutant, 'n'},
+                                               {Selector::Side, 's'}})
             if (selects(selector, at(20, slope))) kinds += letter;
         return kinds;
     };
@@ -208,7 +224,8 @@ TEST(GrammarSelectors, Slopes)
 TEST(GrammarSelectors, FaceShapeHasXAlongTheFirstEdgeAndZOutside)
 {
     const Geometry solid = extrude(flat({{2, 1}, {10, 1}, {10, 7}, {2, 7}}), {0, 5, 0}, false);
-    const auto [scope, geometry] = faceShape(Scope{}, solid.faces[1]); // the wall at x = 10, from y = 1 to 7 (z = -1 to -7)
+    const auto [scope, geometry] =
+        faceShape(Scope{}, solid.faces[1]); // the wall at x = 10, from y = 1 to 7 (z = -1 to -7)
     EXPECT_NEAR(glm::distance(scope.origin, glm::dvec3(10, 0, -1)), 0, 1e-12);
     EXPECT_NEAR(glm::distance(scope.axes[0], glm::dvec3(0, 0, -1)), 0, 1e-12);
     EXPECT_NEAR(glm::distance(scope.axes[1], glm::dvec3(0, 1, 0)), 0, 1e-12);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sizes of split and repeat. The vectors are the worked examples of the language's split page (scope of 10 units) and our own
-// decisions where that page is silent.
+// Sizes of split and repeat. The vectors are the worked examples of the language's split page (scope of 10 units) and
+// our own decisions where that page is silent.
 #include "city/grammar/split_sizes.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +10,22 @@
 namespace helio::cga {
 namespace {
 
-SplitItem absolute(double v) { return {SizeKind::Absolute, v, 0, {}}; }
-SplitItem relative(double v) { return {SizeKind::Relative, v, 0, {}}; }
-SplitItem floating(double v) { return {SizeKind::Floating, v, 0, {}}; }
-SplitItem repeat(std::vector<SplitItem> pattern) { return {SizeKind::Absolute, 0.0, 0, std::move(pattern)}; }
+SplitItem absolute(double v)
+{
+    return {SizeKind::Absolute, v, 0, {}};
+}
+SplitItem relative(double v)
+{
+    return {SizeKind::Relative, v, 0, {}};
+}
+SplitItem floating(double v)
+{
+    return {SizeKind::Floating, v, 0, {}};
+}
+SplitItem repeat(std::vector<SplitItem> pattern)
+{
+    return {SizeKind::Absolute, 0.0, 0, std::move(pattern)};
+}
 
 void expectSizes(double size, const std::vector<SplitItem>& items, const std::vector<double>& expected)
 {
@@ -35,12 +47,30 @@ std::vector<double> repeated(std::vector<double> pattern, int times)
     return all;
 }
 
-TEST(GrammarSplit, RelativePartsLeaveAGap) { expectSizes(10, {relative(.5), relative(.1), relative(.2)}, {5, 1, 2}); }
-TEST(GrammarSplit, FloatingPartsFill) { expectSizes(10, {floating(.5), floating(.1), floating(.2)}, {6.25, 1.25, 2.5}); }
-TEST(GrammarSplit, FloatingTakesTheRest) { expectSizes(10, {absolute(3.3), floating(3), absolute(5)}, {3.3, 1.7, 5}); }
-TEST(GrammarSplit, OversizedIsCutAndTheRestNeverMade) { expectSizes(10, {relative(.5), relative(.6), absolute(3)}, {5, 5}); }
-TEST(GrammarSplit, AbsoluteRepeatIsCutAtTheEnd) { expectSizes(10, {repeat({absolute(2), absolute(1)})}, {2, 1, 2, 1, 2, 1, 1}); }
-TEST(GrammarSplit, FloatingRepeatStretchesLeast) { expectSizes(10, {repeat({floating(2), floating(1)})}, repeated({2.222222, 1.111111}, 3)); }
+TEST(GrammarSplit, RelativePartsLeaveAGap)
+{
+    expectSizes(10, {relative(.5), relative(.1), relative(.2)}, {5, 1, 2});
+}
+TEST(GrammarSplit, FloatingPartsFill)
+{
+    expectSizes(10, {floating(.5), floating(.1), floating(.2)}, {6.25, 1.25, 2.5});
+}
+TEST(GrammarSplit, FloatingTakesTheRest)
+{
+    expectSizes(10, {absolute(3.3), floating(3), absolute(5)}, {3.3, 1.7, 5});
+}
+TEST(GrammarSplit, OversizedIsCutAndTheRestNeverMade)
+{
+    expectSizes(10, {relative(.5), relative(.6), absolute(3)}, {5, 5});
+}
+TEST(GrammarSplit, AbsoluteRepeatIsCutAtTheEnd)
+{
+    expectSizes(10, {repeat({absolute(2), absolute(1)})}, {2, 1, 2, 1, 2, 1, 1});
+}
+TEST(GrammarSplit, FloatingRepeatStretchesLeast)
+{
+    expectSizes(10, {repeat({floating(2), floating(1)})}, repeated({2.222222, 1.111111}, 3));
+}
 TEST(GrammarSplit, RepeatBetweenAbsoluteEnds)
 {
     std::vector<double> expected = repeated({.9, .2, .9}, 4);
@@ -48,9 +78,18 @@ TEST(GrammarSplit, RepeatBetweenAbsoluteEnds)
     expected.push_back(1);
     expectSizes(10, {absolute(1), repeat({floating(1), absolute(.2), floating(1)}), absolute(1)}, expected);
 }
-TEST(GrammarSplit, AbabaRhythm) { expectSizes(10, {repeat({absolute(1), floating(2.7)}), absolute(1)}, {1, 3.5, 1, 3.5, 1}); }
-TEST(GrammarSplit, ShortFacadeKeepsOneFloor) { expectSizes(1, {repeat({floating(3)})}, {1}); }
-TEST(GrammarSplit, EndsEatEverythingAndTheRepeatVanishes) { expectSizes(.4, {absolute(.3), repeat({floating(2)}), absolute(.3)}, {.3, .1}); }
+TEST(GrammarSplit, AbabaRhythm)
+{
+    expectSizes(10, {repeat({absolute(1), floating(2.7)}), absolute(1)}, {1, 3.5, 1, 3.5, 1});
+}
+TEST(GrammarSplit, ShortFacadeKeepsOneFloor)
+{
+    expectSizes(1, {repeat({floating(3)})}, {1});
+}
+TEST(GrammarSplit, EndsEatEverythingAndTheRepeatVanishes)
+{
+    expectSizes(.4, {absolute(.3), repeat({floating(2)}), absolute(.3)}, {.3, .1});
+}
 
 // The pattern is ~3 and two inner repeats of 0.5 m each, 4 m in all: three times in 12 m, without stretch.
 TEST(GrammarSplit, NestedRepeatIsLaidOutInsideItsShare)
@@ -58,9 +97,23 @@ TEST(GrammarSplit, NestedRepeatIsLaidOutInsideItsShare)
     expectSizes(12, {repeat({floating(3), repeat({absolute(.5)}), repeat({absolute(.5)})})}, repeated({3, .5, .5}, 3));
 }
 
-TEST(GrammarSplit, TwoRepeatsShareTheRest) { expectSizes(10, {repeat({floating(1)}), absolute(2), repeat({floating(2)})}, {1, 1, 1, 1, 2, 2, 2}); }
-TEST(GrammarSplit, NegativeSizesCountAsNothing) { expectSizes(10, {absolute(-3), floating(1)}, {10}); }
-TEST(GrammarSplit, EmptyScopeMakesNothing) { expectSizes(0, {repeat({floating(1)}), absolute(1)}, {}); }
+TEST(GrammarSplit, TwoRepeatsShareTheRest)
+{
+    expectSizes(10, {repeat({floating(1)}), absolute(2), repeat({floating(2)})}, {1, 1, 1, 1, 2, 2, 2});
+}
+// 1.9 / 1.1 rounds to two, but the fixed parts of two, 2 m, would leave nothing to the floating ones.
+TEST(GrammarSplit, FixedPartsOfARepeatMustFit)
+{
+    expectSizes(1.9, {repeat({absolute(.9), floating(.1), absolute(.1)})}, {.9, .9, .1});
+}
+TEST(GrammarSplit, NegativeSizesCountAsNothing)
+{
+    expectSizes(10, {absolute(-3), floating(1)}, {10});
+}
+TEST(GrammarSplit, EmptyScopeMakesNothing)
+{
+    expectSizes(0, {repeat({floating(1)}), absolute(1)}, {});
+}
 
 TEST(GrammarSplit, RepeatWithoutExtentIsAnError)
 {

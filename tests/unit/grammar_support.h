@@ -10,10 +10,10 @@
 namespace helio::test {
 
 /// A free-standing footprint without neighbours.
-inline Footprint footprintOf(Ring2 outer, double height, std::vector<Ring2> holes = {})
+inline Footprint footprintOf(Ring2 outer, double height, std::vector<Ring2> holes = {}, std::string id = "b")
 {
     Footprint footprint;
-    footprint.id = "b";
+    footprint.id = std::move(id);
     footprint.coveredHeight.assign(outer.size(), 0.0);
     for (const Ring2& hole : holes) footprint.coveredHeight.resize(footprint.coveredHeight.size() + hole.size(), 0.0);
     footprint.outline = {std::move(outer), std::move(holes)};
@@ -22,7 +22,10 @@ inline Footprint footprintOf(Ring2 outer, double height, std::vector<Ring2> hole
 }
 
 /// A rectangle of x by y metres with its corner at the origin; the first edge runs along x and faces south.
-inline Footprint boxFootprint(double x, double y, double height) { return footprintOf({{0, 0}, {x, 0}, {x, y}, {0, y}}, height); }
+inline Footprint boxFootprint(double x, double y, double height)
+{
+    return footprintOf({{0, 0}, {x, 0}, {x, y}, {0, y}}, height);
+}
 
 /// Every asset is the unit cube, in asset units.
 inline DeriveOptions unitAssets()
@@ -33,7 +36,8 @@ inline DeriveOptions unitAssets()
     return options;
 }
 
-inline Result<Derivation> deriveText(std::string_view rules, const std::vector<Footprint>& footprints, const DeriveOptions& options = unitAssets())
+inline Result<Derivation> deriveText(std::string_view rules, const std::vector<Footprint>& footprints,
+                                     const DeriveOptions& options = unitAssets())
 {
     const auto parsed = parseRules(rules, "t.cga");
     if (!parsed) return parsed.error();
@@ -41,7 +45,8 @@ inline Result<Derivation> deriveText(std::string_view rules, const std::vector<F
 }
 
 /// Derives rules that must be correct.
-inline Derivation mustDerive(std::string_view rules, const std::vector<Footprint>& footprints, const DeriveOptions& options = unitAssets())
+inline Derivation mustDerive(std::string_view rules, const std::vector<Footprint>& footprints,
+                             const DeriveOptions& options = unitAssets())
 {
     auto derivation = deriveText(rules, footprints, options);
     EXPECT_TRUE(derivation.ok()) << (derivation.ok() ? "" : derivation.error().message);
@@ -60,7 +65,8 @@ inline std::vector<const Shape*> leavesOf(const Derivation& derivation, std::str
 {
     std::vector<const Shape*> leaves;
     for (const Shape& shape : derivation.shapes.shapes)
-        if ((shape.polygonCount > 0 || shape.asset != kNoIndex) && derivation.shapes.names[shape.name] == name) leaves.push_back(&shape);
+        if ((shape.polygonCount > 0 || shape.asset != kNoIndex) && derivation.shapes.names[shape.name] == name)
+            leaves.push_back(&shape);
     return leaves;
 }
 
@@ -101,7 +107,8 @@ inline std::pair<glm::dvec3, glm::dvec3> boundsOf(const Derivation& derivation, 
 inline double enclosedVolume(const Derivation& derivation)
 {
     double sum = 0.0;
-    for (const Polygon3& polygon : derivation.shapes.polygons) sum += glm::dot(polygon.outer[0], vectorArea(polygon)) / 3.0;
+    for (const Polygon3& polygon : derivation.shapes.polygons)
+        sum += glm::dot(polygon.outer[0], vectorArea(polygon)) / 3.0;
     return sum;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Barriers as a function of access lists. Expectations follow from the Vulkan specification, chapter 7: a read waits for the
-// last write, a write waits for the last write and for all reads since.
+// Barriers as a function of access lists. Expectations follow from the Vulkan specification, chapter 7: a read waits
+// for the last write, a write waits for the last write and for all reads since.
 #include <gtest/gtest.h>
 
 #include "engine/graph/barriers.h"
@@ -159,9 +159,10 @@ TEST(GraphBarriers, AnAcquiredImageWaitsForItsSemaphore)
 TEST(GraphBarriers, ResourcesDoNotMix)
 {
     std::vector<AccessState> states(2);
-    const std::vector<std::vector<Access>> passes{{accessOf(0, false, Use::ComputeWrite)},
-                                                  {accessOf(1, false, Use::ComputeRead)},
-                                                  {accessOf(0, false, Use::ComputeRead), accessOf(1, false, Use::CopyTo)}};
+    const std::vector<std::vector<Access>> passes{
+        {accessOf(0, false, Use::ComputeWrite)},
+        {accessOf(1, false, Use::ComputeRead)},
+        {accessOf(0, false, Use::ComputeRead), accessOf(1, false, Use::CopyTo)}};
     const auto barriers = deriveBarriers(states, passes);
     EXPECT_TRUE(barriers[1].empty());
     ASSERT_EQ(barriers[2].size(), 2u);

@@ -159,7 +159,8 @@ TEST(GraphPlan, ImageUsageFollowsFromLivePasses)
     });
     const Result<GraphPlan> plan = graph.plan();
     ASSERT_TRUE(plan);
-    EXPECT_EQ(plan->imageUsages[ids.index], VkImageUsageFlags(VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT));
+    EXPECT_EQ(plan->imageUsages[ids.index],
+              VkImageUsageFlags(VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT));
     EXPECT_FALSE(plan->accesses[0][0].keepContents) << "the graph's own image starts empty";
     EXPECT_TRUE(plan->accesses[1][0].keepContents);
 }
@@ -170,8 +171,9 @@ TEST(GraphPlan, DumpNamesPassesVersionsAndUses)
     addEnd(graph, {addPass(graph, "gather", {})});
     addPass(graph, "dead", {});
     const std::string dot = graph.dump();
-    for (const char* part : {"digraph \"city\"", "p0 [shape=box, label=\"gather\"]", "p0 -> r0v1 [label=\"ComputeWrite\"]",
-                             "r0v1 -> p1 [label=\"ComputeRead\"]", "label=\"dead\", style=dashed"}) {
+    for (const char* part :
+         {"digraph \"city\"", "p0 [shape=box, label=\"gather\"]", "p0 -> r0v1 [label=\"ComputeWrite\"]",
+          "r0v1 -> p1 [label=\"ComputeRead\"]", "label=\"dead\", style=dashed"}) {
         EXPECT_NE(dot.find(part), std::string::npos) << part << "\n" << dot;
     }
 }

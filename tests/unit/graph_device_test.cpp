@@ -59,9 +59,10 @@ TEST(VkCheckDeathTest, AFailureEndsWithCodeTwoAndSaysWhat)
 {
     EXPECT_EXIT(vkCheck(VK_ERROR_OUT_OF_DEVICE_MEMORY, "buffer 'links' of ", 12, " bytes"), testing::ExitedWithCode(2),
                 "device error: buffer 'links' of 12 bytes: VK_ERROR_OUT_OF_DEVICE_MEMORY");
-    setFailureNote("digraph \"frame\"");
-    EXPECT_EXIT(vkCheck(VK_ERROR_DEVICE_LOST, "wait"), testing::ExitedWithCode(2), "VK_ERROR_DEVICE_LOST\ndigraph \"frame\"");
-    setFailureNote("");
+    setFailureNote(std::make_shared<const std::string>("digraph \"frame\""));
+    EXPECT_EXIT(vkCheck(VK_ERROR_DEVICE_LOST, "wait"), testing::ExitedWithCode(2),
+                "VK_ERROR_DEVICE_LOST\ndigraph \"frame\"");
+    setFailureNote(nullptr);
 }
 
 TEST(Groups, CoverTheItemsAndStayInTheLimit)

@@ -86,8 +86,9 @@ TEST(GraphMisuse, StaleVersion)
     const Ref<Buffer> stale = addWriter(graph, "fill");
     (void)addUpdate(graph, "histogram", stale, Use::ComputeReadWrite);
     addReader(graph, "gather", stale, Use::ComputeRead);
-    EXPECT_EQ(errorOf(graph), "pass 'gather' reads version 1 of 'counts', which pass 'histogram' replaced by version 2: "
-                              "use the reference that write returned");
+    EXPECT_EQ(errorOf(graph),
+              "pass 'gather' reads version 1 of 'counts', which pass 'histogram' replaced by version 2: "
+              "use the reference that write returned");
 }
 
 //   (fill) --> counts 1 --> (histogram)
@@ -163,7 +164,8 @@ TEST(GraphMisuse, WrongDirection)
 {
     FrameGraph first;
     addReader(first, "gather", addWriter(first, "fill"), Use::ComputeWrite);
-    EXPECT_EQ(errorOf(first), "pass 'gather' reads 'counts' with the use ComputeWrite, which writes: declare it with write");
+    EXPECT_EQ(errorOf(first),
+              "pass 'gather' reads 'counts' with the use ComputeWrite, which writes: declare it with write");
 
     FrameGraph second;
     (void)addUpdate(second, "gather", addWriter(second, "fill"), Use::ComputeRead);

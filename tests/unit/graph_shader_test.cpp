@@ -15,8 +15,8 @@ class ShaderCompile : public testing::Test
 protected:
     void SetUp() override
     {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  testing::UnitTest::GetInstance()->current_test_info()->name();
+        folder_ =
+            std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
         std::filesystem::create_directories(folder_ / "lib");
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -49,7 +49,8 @@ TEST_F(ShaderCompile, AMistakeInAnIncludeIsReportedThere)
     write("lib/broken.glsl", "\nfloat f() { return g; }\n");
     const auto compiled = compile(std::string(kHead) + "#include \"lib/broken.glsl\"\nvoid main() {}\n");
     ASSERT_FALSE(compiled);
-    EXPECT_NE(compiled.error().message.find("lib/broken.glsl:2: error: 'g'"), std::string::npos) << compiled.error().message;
+    EXPECT_NE(compiled.error().message.find("lib/broken.glsl:2: error: 'g'"), std::string::npos)
+        << compiled.error().message;
 }
 
 TEST_F(ShaderCompile, AMissingIncludeIsNamed)
@@ -67,13 +68,14 @@ TEST_F(ShaderCompile, IncludesAreListedOnceAlsoNestedOnes)
     const auto compiled =
         compile(std::string(kHead) + "#include \"lib/outer.glsl\"\n#include \"lib/inner.glsl\"\nvoid main() {}\n");
     ASSERT_TRUE(compiled) << compiled.error().message;
-    EXPECT_EQ(compiled->includes, (std::vector<std::string>{(folder_ / "lib/inner.glsl").string(),
-                                                            (folder_ / "lib/outer.glsl").string()}));
+    EXPECT_EQ(compiled->includes,
+              (std::vector<std::string>{(folder_ / "lib/inner.glsl").string(), (folder_ / "lib/outer.glsl").string()}));
 }
 
 TEST_F(ShaderCompile, DefinitionsReachTheShader)
 {
-    const std::string text = std::string(kHead) + "#if FIRST != 7 || !defined(SECOND)\n#error no\n#endif\nvoid main() {}\n";
+    const std::string text =
+        std::string(kHead) + "#if FIRST != 7 || !defined(SECOND)\n#error no\n#endif\nvoid main() {}\n";
     EXPECT_TRUE(compile(text, {"FIRST=7", "SECOND"}));
     EXPECT_FALSE(compile(text, {"FIRST=8", "SECOND"}));
 }
@@ -110,8 +112,8 @@ void main()
     ASSERT_TRUE(compiled) << compiled.error().message;
     const auto module = readSpirv(compiled->words);
     ASSERT_TRUE(module) << module.error().message;
-    const BindingKind kinds[] = {BindingKind::UniformTexelBuffer, BindingKind::UniformTexelBuffer, BindingKind::StorageImage,
-                                 BindingKind::SampledImage, BindingKind::StorageBuffer};
+    const BindingKind kinds[] = {BindingKind::UniformTexelBuffer, BindingKind::UniformTexelBuffer,
+                                 BindingKind::StorageImage, BindingKind::SampledImage, BindingKind::StorageBuffer};
     ASSERT_EQ(module->bindings.size(), 5u);
     for (u32 i = 0; i < 5; ++i) {
         EXPECT_EQ(module->bindings[i].binding, i);
@@ -127,8 +129,10 @@ TEST_F(ShaderCompile, WhatPipelinesDoNotServeIsRefused)
         {"layout(set = 1, binding = 0) buffer B { uint x; };\nvoid main() { x = 1; }", "descriptor set 0"},
         {"layout(binding = 0) buffer A { uint x; };\nlayout(binding = 0) buffer B { uint y; };\nvoid main() { x = y; }",
          "two resources have binding 0"},
-        {"layout(binding = 0) uniform sampler2D s[2];\nvoid main() { vec4 c = texture(s[1], vec2(0)); }", "array of descriptors"},
-        {"layout(push_constant) uniform P { vec4 big[9]; };\nvoid main() { vec4 c = big[8]; }", "144 bytes of push constants"},
+        {"layout(binding = 0) uniform sampler2D s[2];\nvoid main() { vec4 c = texture(s[1], vec2(0)); }",
+         "array of descriptors"},
+        {"layout(push_constant) uniform P { vec4 big[9]; };\nvoid main() { vec4 c = big[8]; }",
+         "144 bytes of push constants"},
     };
     for (const auto& [text, reason] : cases) {
         const auto compiled = compile(std::string(kHead) + text);

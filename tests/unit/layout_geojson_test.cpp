@@ -127,12 +127,14 @@ TEST(GeoJson, TakesHeightsInOrder)
                                                square("far", 500, 0, 10),
                                                square("zero", 500, 50, 10, R"("height":0,"levels":2)"),
                                                square("odd", 700, 0, 10, R"("height":"ca. 12")"),
-                                               square("minus", 700, 90, 10, R"("height":-3)")};
+                                               square("minus", 700, 90, 10, R"("height":-3)"),
+                                               square("diagonal", 15, 45, 10, R"("height":14)")};
     const Layout layout = parse(collection(features), {.defaultHeight = 8.0, .storeyHeight = 3.2});
     EXPECT_EQ(byId(layout, "high").height, 21.5);
     EXPECT_EQ(byId(layout, "text").height, 12.0);
     EXPECT_DOUBLE_EQ(byId(layout, "levels").height, 17.0);
-    EXPECT_DOUBLE_EQ(byId(layout, "near").height, 17.0); // within 50 m: 12 and 17, the upper median
+    EXPECT_DOUBLE_EQ(byId(layout, "near").height,
+                     17.0); // within 50 m: 12 and 17, the upper median; "diagonal" is 64 m away
     EXPECT_DOUBLE_EQ(byId(layout, "zero").height, 7.4);
     EXPECT_DOUBLE_EQ(byId(layout, "far").height, 7.4);
     EXPECT_EQ(byId(layout, "odd").height, 8.0);

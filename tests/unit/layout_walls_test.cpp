@@ -41,8 +41,8 @@ TEST(SharedWalls, NeedHalfOfTheLength)
 
 TEST(SharedWalls, AddUpOverSeveralNeighbours)
 {
-    Layout layout; // 3 m at height 30, 4 m at 18, 3 m at 9: half of 10 m is covered up to 18
-    layout.footprints = {box(0, 0, 10, 10, 25), box(10, 0, 5, 3, 30), box(10, 3, 5, 4, 18), box(10, 7, 5, 3, 9)};
+    Layout layout; // 1 m at height 30, 4 m at 18, 5 m at 9: half of 10 m is covered up to 18
+    layout.footprints = {box(0, 0, 10, 10, 25), box(10, 0, 5, 1, 30), box(10, 1, 5, 4, 18), box(10, 5, 5, 5, 9)};
     findSharedWalls(layout);
     EXPECT_EQ(layout.footprints[0].coveredHeight[1], 18.0);
 }

@@ -34,21 +34,25 @@ struct CommandLine
 {
     BakeOptions bake;
     std::string output, stats, pack, surfaces;
+    std::vector<std::string> attributes; ///< NAME=VALUE
+    std::string method = methodName(LinkMethod::Heliopolis);
     bool zstd = false;
 };
 
 void addBakeOptions(CLI::App& app, CommandLine& line)
 {
     BakeOptions& bake = line.bake;
-    const std::map<std::string, LinkMethod> methods = {{"heliopolis", LinkMethod::Heliopolis},
-                                                       {"paper", LinkMethod::Paper},
-                                                       {"paper-literal", LinkMethod::PaperLiteral}};
     app.add_option("INPUT", bake.input,
                    "GeoJSON footprints (metres), or an OBJ scene with --surfaces; without it the built-in city");
     app.add_option("-o,--output", line.output, "pack folder to write; an existing pack is replaced");
     app.add_option("--surfaces", bake.surfaces, "CSV file of an OBJ scene: row k describes face k");
     app.add_option("--rules", bake.rules,
                    "CGA rule file (default: the shipped one); assets from its folder's assets/ or ../assets/");
+    app.add_option("--set", line.attributes,
+                   "attribute of the rules for all buildings, repeatable: LOD=mass, height=20")
+        ->type_name("NAME=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_option("--lat", bake.latitudeDeg, "latitude of the origin, degrees")
         ->check(CLI::Range(-90.0, 90.0))
         ->capture_default_str();
@@ -64,11 +68,10 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
     app.add_option("--seed", bake.light.seed, "seed of every random choice")->capture_default_str();
     app.add_option("--jobs", bake.light.jobs, "threads; 0 = all cores; the pack does not depend on it")
         ->capture_default_str();
-    app.add_option("--method", bake.light.method,
-                   "how links are made: heliopolis, paper or paper-literal (default heliopolis)")
-        ->transform(CLI::CheckedTransformer(methods))
-        ->default_str("heliopolis")
-        ->type_name("NAME");
+    app.add_option("--method", line.method, "how links are made: heliopolis, paper or paper-literal")
+        ->check(CLI::IsMember({"heliopolis", "paper", "paper-literal"}))
+        ->type_name("NAME")
+        ->capture_default_str();
     app.add_option("--epsilon", bake.light.formFactorEpsilon,
                    "error that one link may leave, as a fraction of the mean radiosity (paper methods: largest form "
                    "factor of a link); "
@@ -94,6 +97,14 @@ int runBake(CommandLine& line)
     // A bad target shows before the work, not after it.
     if (Status status = checkPackTarget(line.output); !status) return complain(status.error().message, kBadInput);
 
+    for (const std::string& text : line.attributes) {
+        const size_t equals = text.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            return complain(concat("--set ", text, ": NAME=VALUE is needed; see --help"), kBadInput);
+        line.bake.attributes[text.substr(0, equals)] = attributeFromText(text.substr(equals + 1));
+    }
+    for (const LinkMethod method : {LinkMethod::Heliopolis, LinkMethod::Paper, LinkMethod::PaperLiteral})
+        if (line.method == methodName(method)) line.bake.light.method = method;
     ProgressLine progress;
     line.bake.light.progress = [&](const char* step, double done) { progress.show(step, done); };
     Result<BakeResult> result = bake(line.bake);

@@ -44,14 +44,16 @@ private:
 
 void printSolve(const SolveReport& report)
 {
-    std::printf("Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an ancestor's "
+    std::printf("Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an "
+                "ancestor's "
                 "ratio, %u clamped\n",
-                report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY, report.litPatches,
-                report.flaggedPatches, report.excessPatches);
+                report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY,
+                report.litPatches, report.flaggedPatches, report.excessPatches);
     std::printf("Residual %.3g after %u sweeps; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
                 report.meanRadiosity.a);
     std::printf("On the device:\n");
-    for (const PassTime& stage : report.stages) std::printf("  %-28s %9.2f ms\n", stage.name.c_str(), stage.milliseconds);
+    for (const PassTime& stage : report.stages)
+        std::printf("  %-28s %9.2f ms\n", stage.name.c_str(), stage.milliseconds);
 }
 
 void printPicture(const Picture& picture)
@@ -64,7 +66,8 @@ void printPicture(const Picture& picture)
 std::string describeLight(const RenderOptions& o, const SolveReport& report)
 {
     return concat("sun azimuth ", o.sun.x, " elevation ", o.sun.y, " degrees, DNI ", o.dni, ", uniform sky DHI ", o.dhi,
-                  o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual, " after ", report.sweeps, " sweeps");
+                  o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual, " after ",
+                  report.sweeps, " sweeps");
 }
 
 Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptions& o)
@@ -101,7 +104,9 @@ int runMain(int argc, char** argv)
     const Result<Pack> pack = Pack::open(o.pack);
     if (!pack) return complain(pack.error().message, kBadInput);
     if (o.rows == TableRows::Face && !o.table.empty() && pack->index().sourceFaceCount == 0)
-        return complain(concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"), kBadInput);
+        return complain(
+            concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"),
+            kBadInput);
     const Result<Camera> camera = parseCamera(o.camera, *pack);
     if (!camera) return complain(camera.error().message, kBadInput);
 
@@ -112,13 +117,16 @@ int runMain(int argc, char** argv)
     if (!opened) return complain(opened.error().message, kInternal);
     Context& context = **opened;
     if (o.validate && !context.validating())
-        return complain("the validation layer is missing: install the Debian package vulkan-validationlayers", kInternal);
+        return complain("the validation layer is missing: install the Debian package vulkan-validationlayers",
+                        kInternal);
     const u32 largest = context.facts().maxImageDimension2D;
     if (o.width * o.samples > largest || o.height * o.samples > largest)
-        return complain(concat("--size ", o.width, "x", o.height, " with ", o.samples, " samples is beyond this device's ", largest,
-                               " texels; make the picture or --samples smaller"), kBadInput);
-    std::printf("%s on %s: %u patches, %u nodes, %zu links\n", o.pack.c_str(), context.describe().c_str(), pack->patchCount(),
-                pack->nodeCount(), pack->tile().linkColumns.size());
+        return complain(concat("--size ", o.width, "x", o.height, " with ", o.samples,
+                               " samples is beyond this device's ", largest,
+                               " texels; make the picture or --samples smaller"),
+                        kBadInput);
+    std::printf("%s on %s: %u patches, %u nodes, %zu links\n", o.pack.c_str(), context.describe().c_str(),
+                pack->patchCount(), pack->nodeCount(), pack->tile().linkColumns.size());
     steps.done("read the pack, open device");
 
     RendererOptions options;
@@ -136,11 +144,13 @@ int runMain(int argc, char** argv)
     const SolveReport report = renderer.solve();
     steps.done("solve");
     printSolve(report);
-    if (const Status written = writePictures(renderer, *camera, o); !written) return complain(written.error().message, kBadInput);
+    if (const Status written = writePictures(renderer, *camera, o); !written)
+        return complain(written.error().message, kBadInput);
     if (!o.table.empty()) {
         const Result<std::string> text = tableText(*pack, renderer.readTables(), o.rows, describeLight(o, report));
         if (!text) return complain(text.error().message, kBadInput);
-        if (const Status written = writeTextAtomically(o.table, *text); !written) return complain(written.error().message, kBadInput);
+        if (const Status written = writeTextAtomically(o.table, *text); !written)
+            return complain(written.error().message, kBadInput);
     }
     steps.done("pictures and table");
     if (o.validate) {

@@ -9,9 +9,9 @@ namespace helio {
 
 namespace {
 
-const std::map<std::string, u32> kModes{{"final", gpu::kModeFinal},       {"id", gpu::kModeId},
-                                        {"depth", gpu::kModeDepth},       {"sun-visibility", gpu::kModeSunVisibility},
-                                        {"esun", gpu::kModeSun},          {"esky", gpu::kModeSky},
+const std::map<std::string, u32> kModes{{"final", gpu::kModeFinal},        {"id", gpu::kModeId},
+                                        {"depth", gpu::kModeDepth},        {"sun-visibility", gpu::kModeSunVisibility},
+                                        {"esun", gpu::kModeSun},           {"esky", gpu::kModeSky},
                                         {"eindirect", gpu::kModeIndirect}, {"radiosity", gpu::kModeRadiosity}};
 constexpr u32 kMaxSize = 16384;
 
@@ -40,32 +40,52 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     RenderOptions o;
     std::string sun = "180,45", sky = "uniform", size = "1280x720", per = "patch", view = "final";
     bool noEmission = false, flat = false;
-    CLI::App app{"Lights a pack and draws it without a window: pictures, outputs of every stage, tables of irradiance.\n"
-                 "Exit codes: 0 = ok, 1 = bad input or usage, 2 = device or internal.",
-                 "heliopolis-render"};
+    CLI::App app{
+        "Lights a pack and draws it without a window: pictures, outputs of every stage, tables of irradiance.\n"
+        "Exit codes: 0 = ok, 1 = bad input or usage, 2 = device or internal.",
+        "heliopolis-render"};
     app.add_option("PACK", o.pack, "pack folder, from heliopolis-bake")->required();
-    app.add_option("--sun", sun, "azimuth,elevation in degrees; azimuth clockwise from true north")->capture_default_str();
-    app.add_option("--dni", o.dni, "direct normal irradiance of the sun, W/m2")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+    app.add_option("--sun", sun, "azimuth,elevation in degrees; azimuth clockwise from true north")
+        ->capture_default_str();
+    app.add_option("--dni", o.dni, "direct normal irradiance of the sun, W/m2")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
     app.add_option("--sky", sky, "sky model: uniform")->check(CLI::IsMember({"uniform"}))->capture_default_str();
-    app.add_option("--dhi", o.dhi, "diffuse horizontal irradiance of the sky, W/m2")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+    app.add_option("--dhi", o.dhi, "diffuse horizontal irradiance of the sky, W/m2")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
     app.add_flag("--no-emission", noEmission, "switch off what patches emit themselves");
-    app.add_option("--camera", o.camera, "aerial, street, top, or x,y,z,tx,ty,tz[,fov] (m, vertical degrees)")->capture_default_str();
+    app.add_option("--camera", o.camera, "aerial, street, top, or x,y,z,tx,ty,tz[,fov] (m, vertical degrees)")
+        ->capture_default_str();
     app.add_option("--size", size, "WIDTHxHEIGHT of the picture, pixels")->capture_default_str();
     auto* residual = app.add_option("--residual", o.residual, "sweep until the relative residual is at most this")
-                         ->check(CLI::Range(1e-7, 1.0))->capture_default_str();
-    app.add_option("--iterations", o.sweeps, "make exactly this many sweeps instead")->check(CLI::Range(1u, 100000u))->excludes(residual);
+                         ->check(CLI::Range(1e-7, 1.0))
+                         ->capture_default_str();
+    app.add_option("--iterations", o.sweeps, "make exactly this many sweeps instead")
+        ->check(CLI::Range(1u, 100000u))
+        ->excludes(residual);
     app.add_option("--sun-texel", o.sunTexel, "size of a texel of the sun raster, m; 0 = 0.04 or what the scene allows")
-        ->check(CLI::Range(0.0, 100.0))->capture_default_str();
-    app.add_option("--samples", o.samples, "samples a pixel along each axis")->check(CLI::Range(1u, 4u))->capture_default_str();
-    app.add_option("--exposure", o.exposureStops, "stops added to the automatic exposure")->check(CLI::Range(-20.0, 20.0))->capture_default_str();
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    app.add_option("--samples", o.samples, "samples a pixel along each axis")
+        ->check(CLI::Range(1u, 4u))
+        ->capture_default_str();
+    app.add_option("--exposure", o.exposureStops, "stops added to the automatic exposure")
+        ->check(CLI::Range(-20.0, 20.0))
+        ->capture_default_str();
     app.add_flag("--flat", flat, "one light value a patch in the picture, not interpolated");
     app.add_option("-o,--output", o.png, "picture as PNG, sRGB");
-    app.add_option("--exr", o.exr, "picture as EXR, linear: W/m2/sr for final, without display tints; else the view's own unit");
+    app.add_option("--exr", o.exr,
+                   "picture as EXR, linear: W/m2/sr for final, without display tints; else the view's own unit");
     app.add_option("--table", o.table, "irradiance and radiosity as CSV, W/m2");
-    app.add_option("--per", per, "row of the table: patch, or face of the OBJ")->check(CLI::IsMember({"patch", "face"}))->capture_default_str();
+    app.add_option("--per", per, "row of the table: patch, or face of the OBJ")
+        ->check(CLI::IsMember({"patch", "face"}))
+        ->capture_default_str();
     app.add_option("--view", view, "final, id, depth, sun-visibility, esun, esky, eindirect or radiosity")
-        ->check(CLI::IsMember(kModes))->capture_default_str();
-    app.add_option("--device", o.device, "part of the Vulkan device's name (default: HELIO_DEVICE, else the fastest kind)");
+        ->check(CLI::IsMember(kModes))
+        ->capture_default_str();
+    app.add_option("--device", o.device,
+                   "part of the Vulkan device's name (default: HELIO_DEVICE, else the fastest kind)");
     app.add_flag("--validate", o.validate, "run under the validation layer; any message is a failure (exit 2)");
     try {
         app.parse(argc, argv);

@@ -14,14 +14,14 @@ namespace helio {
 struct RenderOptions
 {
     std::string pack;
-    glm::dvec2 sun{180.0, 45.0}; ///< azimuth, elevation, degrees
+    glm::dvec2 sun{180.0, 45.0};     ///< azimuth, elevation, degrees
     double dni = 800.0, dhi = 120.0; ///< W/m2
     bool emission = true;
     std::string camera = "aerial";
     u32 width = 1280, height = 720;
-    u32 sweeps = 0;          ///< > 0: exactly this many
+    u32 sweeps = 0; ///< > 0: exactly this many
     double residual = 1e-3;
-    double sunTexel = 0.0;   ///< m; 0 = the default
+    double sunTexel = 0.0; ///< m; 0 = the default
     u32 samples = 3;
     double exposureStops = 0.0;
     bool smooth = true;

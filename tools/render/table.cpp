@@ -24,7 +24,8 @@ std::vector<Row> patchRows(const TileView& tile, const LightTables& light)
     std::vector<Row> rows;
     rows.reserve(tile.patches.size());
     for (size_t i = 0; i < tile.patches.size(); ++i)
-        rows.push_back({tile.patches[i].building, double(tile.patches[i].area),
+        rows.push_back({tile.patches[i].building,
+                        double(tile.patches[i].area),
                         {glm::dvec4(light.sun[i]), glm::dvec4(light.sky[i]), glm::dvec4(light.indirect[i]),
                          glm::dvec4(light.radiosity[i])}});
     return rows;

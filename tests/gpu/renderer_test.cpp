@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// The four stages together.
+#include "engine/view/renderer.h"
+
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "engine/stages/shade.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/tile_builder.h"
+
+namespace helio {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+class RendererTest : public GpuTest
+{
+protected:
+    std::unique_ptr<Renderer> make(const TileView& view, RendererOptions options = {})
+    {
+        auto renderer = Renderer::create(context(), view, 0.0, options);
+        EXPECT_TRUE(renderer.ok()) << renderer.error().message;
+        return std::move(*renderer);
+    }
+};
+
+/// A closed unit box seen from inside with equal emission: B = emission / (1 - rho).
+TileBuilder makeFurnace(float rho)
+{
+    TileBuilder b;
+    const u32 first = b.box({0, 0, 0}, {1, 1, 1}, glm::vec4(rho, 0.5f * rho, 0.25f, rho), glm::vec4(1, 2, 3, 4), true);
+    for (u32 i = 0; i < 6; ++i)
+        for (u32 j = 0; j < 6; ++j)
+            if (i != j) b.link(first + i, first + j, 0.2f);
+    return b;
+}
+
+/// Ground of one patch with a lamp patch that is not drawn, a wall that throws a shadow, and full sky.
+struct Yard
+{
+    TileBuilder b;
+    u32 ground, lamp;
+    Yard()
+    {
+        ground = b.quad({{{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}}, glm::vec4(0.2f, 0.4f, 0.6f, 0.5f));
+        b.quad({{{-10, 5, 0}, {-10, 5, 4}, {10, 5, 4}, {10, 5, 0}}}, glm::vec4(0.0f));
+        lamp = b.patch({0, 0, -1}, 1.0f, glm::vec4(0.0f), glm::vec4(50, 100, 200, 400));
+        b.link(ground, lamp, 0.25f);
+        b.sky(ground, 0.75f);
+    }
+};
+
+TEST_F(RendererTest, FurnaceReachesItsClosedForm)
+{
+    TileBuilder b = makeFurnace(0.8f);
+    RendererOptions options;
+    options.solve.residual = 1e-6;
+    auto renderer = make(b.view(), options);
+    renderer->setSky(0.0);
+    renderer->setSun(0.0, -90.0, 0.0);
+    const SolveReport report = renderer->solve();
+    EXPECT_LE(report.residual, 1e-6);
+    const LightTables light = renderer->readTables();
+    for (const glm::vec4& radiosity : light.radiosity) {
+        EXPECT_NEAR(radiosity.r, 1.0 / (1.0 - 0.8), 5e-5);
+        EXPECT_NEAR(radiosity.g, 2.0 / (1.0 - 0.4), 5e-5);
+        EXPECT_NEAR(radiosity.b, 3.0 / (1.0 - 0.25), 5e-5);
+        EXPECT_NEAR(radiosity.a, 4.0 / (1.0 - 0.8), 2e-4);
+    }
+    // Equal everywhere, so irradiance is radiosity.
+    for (const glm::vec4& e : light.indirect) EXPECT_NEAR(e.r, 5.0, 5e-5);
+    EXPECT_NEAR(report.meanRadiosity.r, 5.0, 5e-5);
+}
+
+TEST_F(RendererTest, ResidualFallsByRhoASweep)
+{
+    TileBuilder b = makeFurnace(0.5f);
+    std::vector<double> residuals;
+    for (const u32 sweeps : {4u, 5u, 6u}) {
+        RendererOptions options;
+        options.solve.exactSweeps = sweeps;
+        auto renderer = make(b.view(), options);
+        renderer->setSky(0.0);
+        renderer->setSun(0.0, -90.0, 0.0);
+        const SolveReport report = renderer->solve();
+        EXPECT_EQ(report.sweeps, sweeps);
+        residuals.push_back(report.residual);
+    }
+    // Uniform light: after n sweeps the step is e rho^n and the sum is e (rho - rho^(n+1)) / (1 - rho).
+    for (size_t k = 0; k < residuals.size(); ++k) {
+        const double n = double(k) + 4.0;
+        EXPECT_NEAR(residuals[k], std::pow(0.5, n) * 0.5 / (0.5 - std::pow(0.5, n + 1.0)), 1e-5);
+    }
+}
+
+TEST_F(RendererTest, RunsAgainOnlyWhenTheLightChanged)
+{
+    Yard yard;
+    auto renderer = make(yard.b.view());
+    EXPECT_FALSE(renderer->solve().cached);
+    EXPECT_TRUE(renderer->solve().cached);
+    renderer->setSky(100.0);
+    EXPECT_FALSE(renderer->solve().cached);
+    for (const PassTime& stage : renderer->solve().stages) EXPECT_EQ(stage.name.find("sun raster"), std::string::npos);
+    renderer->setSky(100.0);
+    EXPECT_TRUE(renderer->solve().cached);
+    renderer->setEmission(false);
+    EXPECT_FALSE(renderer->solve().cached);
+    EXPECT_EQ(renderer->readTables().indirect[yard.ground], glm::vec4(0.0f));
+    renderer->solveOptions().exactSweeps = 2;
+    EXPECT_FALSE(renderer->solve().cached);
+}
+
+TEST_F(RendererTest, PixelIsAlbedoOverPiTimesWhatArrives)
+{
+    Yard yard;
+    auto renderer = make(yard.b.view());
+    renderer->setSun(0.0, 60.0, 800.0); // from the north, over the wall
+    renderer->setSky(120.0);
+    Camera camera;
+    camera.eye = {0, 0, 10};
+    camera.target = {0, 0, 0};
+    camera.fovDegrees = 40.0;
+    ViewOptions view;
+    view.display = false;
+    view.smoothLight = false;
+    const Picture picture = renderer->render(camera, 33, 33, view);
+    const glm::dvec3 albedo(0.2, 0.4, 0.6);
+    const glm::dvec3 shade = 120.0 * 0.75 + 0.25 * glm::dvec3(50, 100, 200);
+    const auto expectPixel = [&](u32 x, u32 y, double sun) {
+        for (int c = 0; c < 3; ++c) {
+            const double expected = albedo[c] / kPi * (sun + shade[c]);
+            EXPECT_NEAR(picture.values[y * 33 + x][c], expected, 1e-3 * expected) << x << ", " << y << " channel " << c;
+        }
+    };
+    // The shadow of 4 m at 60 degrees ends 2.3 m south of the wall: y = 2.7 m. The picture spans 3.64 m each way.
+    expectPixel(16, 16, 800.0 * std::sin(kPi / 3.0));
+    expectPixel(16, 1, 0.0);
+    expectPixel(16, 31, 800.0 * std::sin(kPi / 3.0));
+
+    view.mode = gpu::kModeSunVisibility;
+    const Picture visibility = renderer->render(camera, 33, 33, view);
+    EXPECT_EQ(visibility.values[16 * 33 + 16].x, 1.0f);
+    EXPECT_EQ(visibility.values[1 * 33 + 16].x, 0.0f);
+    view.mode = gpu::kModeDepth;
+    EXPECT_NEAR(renderer->render(camera, 33, 33, view).values[16 * 33 + 16].x, 10.0, 1e-4);
+    view.mode = gpu::kModeId;
+    EXPECT_EQ(renderer->render(camera, 33, 33, view).values[16 * 33 + 16].a, float(yard.ground));
+    view.mode = gpu::kModeIndirect;
+    EXPECT_EQ(renderer->render(camera, 33, 33, view).values[16 * 33 + 16], glm::vec4(12.5f, 25.0f, 50.0f, 100.0f));
+}
+
+TEST_F(RendererTest, BackgroundIsTheUniformSkyAndBlackBelow)
+{
+    Yard yard;
+    auto renderer = make(yard.b.view());
+    renderer->setSky(100.0);
+    ViewOptions view;
+    view.display = false;
+    Camera camera;
+    camera.eye = {0, -30, 2};
+    camera.target = {0, -60, 2};
+    const Picture picture = renderer->render(camera, 20, 20, view);
+    EXPECT_NEAR(picture.values[5 * 20 + 10].r, 100.0 / kPi, 1e-3);
+    EXPECT_EQ(glm::vec3(picture.values[15 * 20 + 10]), glm::vec3(0.0f));
+    view.mode = gpu::kModeId;
+    EXPECT_EQ(renderer->render(camera, 20, 20, view).values[0].a, -1.0f);
+}
+
+TEST_F(RendererTest, SameBytesTwice)
+{
+    Yard yard;
+    const TileView tile = yard.b.view();
+    const auto run = [&] {
+        auto renderer = make(tile);
+        renderer->setSun(30.0, 40.0, 700.0);
+        Camera camera;
+        camera.eye = {-15, -15, 9};
+        ViewOptions view;
+        view.samples = 2;
+        return std::pair(renderer->render(camera, 160, 90, view), renderer->readTables());
+    };
+    const auto [a, tablesA] = run();
+    const auto [b, tablesB] = run();
+    EXPECT_EQ(a.display, b.display);
+    EXPECT_EQ(std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(glm::vec4)), 0);
+    EXPECT_EQ(std::memcmp(tablesA.radiosity.data(), tablesB.radiosity.data(), tablesA.radiosity.size() * 16), 0);
+    EXPECT_EQ(std::memcmp(tablesA.sun.data(), tablesB.sun.data(), tablesA.sun.size() * 16), 0);
+}
+
+TEST_F(RendererTest, WarmStartTakesFewerSweepsToTheSameLight)
+{
+    TileBuilder b = makeFurnace(0.8f);
+    RendererOptions options;
+    options.solve.residual = 1e-4;
+    options.solve.warmStart = true;
+    auto renderer = make(b.view(), options);
+    renderer->setSun(0.0, -90.0, 0.0);
+    renderer->setSky(0.0);
+    const u32 cold = renderer->solve().sweeps;
+    const LightTables before = renderer->readTables();
+    renderer->setSky(1.0); // no patch sees it: the solution stays
+    const SolveReport warm = renderer->solve();
+    EXPECT_FALSE(warm.cached);
+    EXPECT_LT(warm.sweeps, cold / 2);
+    EXPECT_LE(warm.residual, 1e-4);
+    const LightTables after = renderer->readTables();
+    for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(after.radiosity[i].r, before.radiosity[i].r, 5e-3);
+}
+
+TEST_F(RendererTest, ViewsAreOneWhole)
+{
+    // The same light whether the sun's picture is one view or many.
+    constexpr u32 kSize = 500;
+    Yard yard;
+    const TileView tile = yard.b.view();
+    RendererOptions one, many;
+    one.sun.texel = many.sun.texel = 0.02;
+    many.sun.maxViewSize = 256;
+    const auto sunOf = [&](const RendererOptions& options) {
+        auto renderer = make(tile, options);
+        renderer->setSun(20.0, 50.0, 1000.0);
+        const u32 views = renderer->solve().sunViews;
+        EXPECT_EQ(views > 1, options.sun.maxViewSize == 256);
+        Camera camera;
+        camera.eye = {0, 0, 25};
+        camera.target = {0, 0, 0};
+        ViewOptions view;
+        view.mode = gpu::kModeSunVisibility;
+        return std::pair(renderer->readTables().sun[yard.ground].w,
+                         renderer->render(camera, kSize, kSize, view).values);
+    };
+    const auto [a, pictureA] = sunOf(one);
+    const auto [b, pictureB] = sunOf(many);
+    EXPECT_NEAR(a, b, 1.0);
+    // No seams: away from the shadow's edge both pictures are the same.
+    u32 dark = 0;
+    for (u32 y = 2; y + 2 < kSize; ++y)
+        for (u32 x = 2; x + 2 < kSize; ++x) {
+            const float here = pictureA[y * kSize + x].x;
+            bool inside = here == 0.0f || here == 1.0f;
+            for (const u32 other : {(y - 2) * kSize + x, (y + 2) * kSize + x, y * kSize + x - 2, y * kSize + x + 2})
+                inside = inside && pictureA[other].x == here;
+            if (!inside) continue;
+            dark += here == 0.0f;
+            EXPECT_EQ(pictureB[y * kSize + x].x, here) << x << ", " << y;
+        }
+    EXPECT_GT(dark, 5000u) << "the shadow is large enough to show a seam";
+}
+
+TEST_F(RendererTest, RefusesWhatItCannotLight)
+{
+    TileView nothing;
+    EXPECT_FALSE(Renderer::create(context(), nothing, 0.0).ok());
+    Yard yard;
+    TileView linear = yard.b.view();
+    const std::vector<float> moments(2, 0.0f);
+    linear.linkMoments = moments;
+    const auto refused = Renderer::create(context(), linear, 0.0);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("moments"), std::string::npos);
+}
+
+} // namespace
+
+} // namespace helio

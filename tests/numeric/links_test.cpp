@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "city/light/bake_light.h"
+#include "city/light/form_factor.h"
+#include "city/light/reference_solver.h"
+#include "city/light/transfer.h"
+#include "tests/numeric/fixtures.h"
+
+using namespace helio;
+using namespace helio::test;
+
+namespace {
+
+std::vector<glm::dvec4> none(const NodeTree& tree) { return std::vector<glm::dvec4>(tree.patchCount(), glm::dvec4(0.0)); }
+
+/// Flux that goes from one group of patches to another, per unit radiosity: sum of A_i F_ij, m2.
+double groupExchange(const NodeTree& tree, const LinkTable& links, u32 fromBegin, u32 fromEnd, u32 toBegin, u32 toEnd)
+{
+    const std::vector<double> dense = denseFactors(tree, links);
+    double sum = 0.0;
+    for (u32 i = fromBegin; i < fromEnd; ++i)
+        for (u32 j = toBegin; j < toEnd; ++j) sum += tree.patches[i].area * dense[size_t(i) * tree.patchCount() + j];
+    return sum;
+}
+
+/// A street between two facades with windows of another reflectance, a ground and a free-standing wall in it.
+std::vector<Face> street()
+{
+    std::vector<Face> faces = grid({0, 0, 0}, {12, 0, 0}, {0, 40, 0}, 3, 8, {{}, 0, glm::dvec4(0.2)});
+    append(faces, grid({0, 0, 0}, {0, 40, 0}, {0, 0, 15}, 10, 5, {{}, 1, glm::dvec4(0.6)}));
+    append(faces, grid({12, 0, 0}, {0, 0, 15}, {0, 40, 0}, 5, 10, {{}, 2, glm::dvec4(0.4)}));
+    append(faces, grid({6, 10, 0}, {0, 0, 5}, {0, 8, 0}, 2, 2, {{}, 3, glm::dvec4(0.5)}));   // faces -x
+    append(faces, grid({6.2, 10, 0}, {0, 8, 0}, {0, 0, 5}, 2, 2, {{}, 4, glm::dvec4(0.5)})); // faces +x
+    for (u32 i = 5; i < faces.size(); i += 3) faces[i].rho *= 0.25;
+    return faces;
+}
+
+} // namespace
+
+TEST(Transfer, FourPointsAgreeWithTheContourAndPartialNodesWithTheirPatches)
+{
+    std::vector<Face> faces = grid({0, 0, 0}, {3, 0, 0}, {0, 2, 0}, 1, 1, {{}, 0});
+    append(faces, grid({40, 10, 30}, {0, 2, 0}, {4, 0, -1}, 1, 1, {{}, 1}));
+    append(faces, grid({5, -3, 9}, {0, 2, 0}, {1, 0, 0}, 1, 1, {{}, 2})); // a facade with a gap: two squares 2 m apart
+    append(faces, grid({8, -3, 9}, {0, 2, 0}, {1, 0, 0}, 1, 1, {{}, 2}));
+    const NodeTree tree = makeTree(faces);
+    const Transfer transfer(tree);
+    const auto outline = [&](u32 node) { return planarShape(tree.outlineOf(node)); };
+    EXPECT_NEAR(transfer.between(0, 1) / exchange(outline(0), outline(1)), 1.0, 1e-3);
+    EXPECT_EQ(transfer.between(0, 1), transfer.between(0, 1));
+    const u32 parent = tree.nodes[2].parent;
+    ASSERT_EQ(tree.nodes[parent].kind, NodeKind::PlanarPartial);
+    EXPECT_NEAR(tree.nodes[parent].coverage, 0.5, 1e-9);
+    EXPECT_NEAR(transfer.between(0, parent) / (transfer.between(0, 2) + transfer.between(0, 3)), 1.0, 0.05);
+}
+
+TEST(Links, FactorsAreReciprocalAndRowsDoNotExceedOne)
+{
+    const NodeTree tree = makeTree(street());
+    const LightBake bake = bakeLight(tree, {});
+    ASSERT_GT(bake.links.column.size(), 500u);
+    const auto factor = [&](u32 receiver, u32 sender) {
+        const auto begin = bake.links.column.begin() + bake.links.rowBegin[receiver], end = bake.links.column.begin() + bake.links.rowBegin[receiver + 1];
+        const auto at = std::lower_bound(begin, end, sender);
+        return at != end && *at == sender ? double(bake.links.factor[size_t(at - bake.links.column.begin())]) : 0.0;
+    };
+    for (u32 i = 0; i < tree.nodeCount(); ++i) {
+        for (u32 k = bake.links.rowBegin[i]; k < bake.links.rowBegin[i + 1]; ++k) {
+            const u32 j = bake.links.column[k];
+            const double there = tree.nodes[i].area * double(bake.links.factor[k]), back = tree.nodes[j].area * factor(j, i);
+            ASSERT_GT(there, 0.0);
+            ASSERT_NEAR(there / back, 1.0, 3e-7) << i << " " << j;
+            ASSERT_NE(tree.nodes[i].kind, NodeKind::Cluster);
+            if (k > bake.links.rowBegin[i]) {
+                ASSERT_LT(bake.links.column[k - 1], j) << "columns ascend";
+            }
+        }
+    }
+    for (const double sum : patchRowSums(tree, bake.links)) EXPECT_LE(sum, 1.03);
+    EXPECT_NEAR(bake.stats.closure.mean, 1.0, 2e-3);
+    EXPECT_LT(std::abs(bake.stats.closureDefect), 5e-3);
+}
+
+TEST(Links, OcclusionOfASquareByASquare)
+{
+    // Unit squares 1 m apart, opaque 0.5 m square half-way / at three quarters: 0.0995062946 / 0.1156206021.
+    for (const auto& [height, expected] : {std::pair(0.5, 0.0995062945990), std::pair(0.75, 0.115620602132)}) {
+        std::vector<Face> faces = grid({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 8, 8, {{}, 0});
+        append(faces, grid({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 8, 8, {{}, 1}));
+        append(faces, grid({.25, .25, height}, {.5, 0, 0}, {0, .5, 0}, 1, 1, {{}, 2}));
+        const NodeTree tree = makeTree(faces);
+        const LightBake bake = bakeLight(tree, {.formFactorEpsilon = 2e-4, .raysPerLink = 16});
+        EXPECT_NEAR(groupExchange(tree, bake.links, 0, 64, 64, 128) / expected, 1.0, 0.01) << height;
+    }
+}
+
+TEST(Links, TwoLeavesAreAlwaysLinked)
+{
+    // However large the error of such a link is estimated: here the whole scene is two single patches.
+    std::vector<Face> faces = grid({0, 0, 0}, {10, 0, 0}, {0, 10, 0}, 1, 1, {{}, 0});
+    append(faces, grid({0, 0, 1}, {0, 10, 0}, {10, 0, 0}, 1, 1, {{}, 1}));
+    const NodeTree tree = makeTree(faces);
+    const LightBake bake = bakeLight(tree, {.formFactorEpsilon = 1e-9});
+    ASSERT_EQ(bake.links.column.size(), 2u);
+    EXPECT_NEAR(100.0 * double(bake.links.factor[0]), exchange(planarShape(tree.outlineOf(0)), planarShape(tree.outlineOf(1))), 1e-4);
+}
+
+TEST(Links, InfiniteParallelPlatesAndTwoPatches)
+{
+    // 1000 x 1000 m, 1 m apart: F = 0.998. B1 = (E1 + rho1 F E2) / (1 - rho1 rho2 F^2); F = 1 when infinite.
+    std::vector<Face> faces = grid({0, 0, 0}, {1000, 0, 0}, {0, 1000, 0}, 1, 1, {{}, 0, glm::dvec4(0.6), glm::dvec4(2.0)});
+    append(faces, grid({0, 0, 1}, {0, 1000, 0}, {1000, 0, 0}, 1, 1, {{}, 1, glm::dvec4(0.3), glm::dvec4(1.0)}));
+    const NodeTree tree = makeTree(faces);
+    const LightBake bake = bakeLight(tree, {});
+    const Solution s = solveLight(tree, bake.links, none(tree), none(tree), {.residual = 1e-10});
+    const double f = exchange(planarShape(tree.outlineOf(0)), planarShape(tree.outlineOf(1))) / 1e6;
+    EXPECT_NEAR(s.radiosity[0].x, (2.0 + 0.6 * f * 1.0) / (1.0 - 0.18 * f * f), 1e-5);
+    EXPECT_NEAR(s.radiosity[0].x, 2.6 / 0.82, 0.005 * 2.6 / 0.82);
+    EXPECT_NEAR(s.radiosity[1].x, 1.6 / 0.82, 0.005 * 1.6 / 0.82);
+}
+
+TEST(Links, FurnaceWithinItsRowSumError)
+{
+    const NodeTree tree = makeTree(room({10, 7, 4}, 4, {0.2, 0.5, 0.8, 0.0}, glm::dvec4(1.0)));
+    const LightBake bake = bakeLight(tree, {});
+    double defect = 0.0;
+    for (const double sum : patchRowSums(tree, bake.links)) defect = std::max(defect, std::abs(sum - 1.0));
+    EXPECT_LT(defect, 1e-3) << "no closure was applied: this is the factors' own error";
+    const Solution s = solveLight(tree, bake.links, none(tree), none(tree), {.residual = 1e-8});
+    for (u32 i = 0; i < tree.patchCount(); ++i) {
+        for (u32 c = 0; c < 4; ++c) {
+            const double rho = tree.patches[i].rho[c], exact = 1.0 / (1.0 - rho);
+            EXPECT_NEAR(s.radiosity[i][c] / exact, 1.0, 1e-6 + rho * defect / (1.0 - rho * (1.0 + defect)));
+        }
+    }
+}
+
+TEST(Links, CubeWithGlowingFloorConverges)
+{
+    // Floor emits 1, rho 0.5: means 1.104362 / 0.171216 / 0.181106 (floor, ceiling, walls), converged to 2e-6.
+    std::vector<Face> faces = room({1, 1, 1}, 8, glm::dvec4(0.5), glm::dvec4(0.0));
+    for (Face& face : faces)
+        if (face.group == 0) face.emission = glm::dvec4(1.0);
+    const NodeTree tree = makeTree(faces);
+    const LightBake bake = bakeLight(tree, {.formFactorEpsilon = 2e-4});
+    const Solution s = solveLight(tree, bake.links, none(tree), none(tree), {.residual = 1e-8});
+    const auto mean = [&](u32 begin, u32 end) {
+        double sum = 0.0;
+        for (u32 i = begin; i < end; ++i) sum += s.radiosity[i].x;
+        return sum / double(end - begin);
+    };
+    EXPECT_NEAR(mean(0, 64) / 1.104362, 1.0, 1e-3);
+    EXPECT_NEAR(mean(64, 128) / 0.171216, 1.0, 5e-3);
+    EXPECT_NEAR(mean(128, 384) / 0.181106, 1.0, 5e-3);
+}
+
+TEST(Links, SameBytesForAnyNumberOfJobs)
+{
+    const NodeTree tree = makeTree(street());
+    for (const LinkMethod method : {LinkMethod::Heliopolis, LinkMethod::Paper, LinkMethod::PaperLiteral}) {
+        const LightBake one = bakeLight(tree, {.method = method, .jobs = 1}), two = bakeLight(tree, {.method = method, .jobs = 2});
+        EXPECT_FALSE(one.links.column.empty());
+        EXPECT_EQ(one.links.rowBegin, two.links.rowBegin);
+        EXPECT_EQ(one.links.column, two.links.column);
+        EXPECT_EQ(one.links.factor, two.links.factor);
+        EXPECT_EQ(one.sky.factor, two.sky.factor);
+    }
+    const LightBake other = bakeLight(tree, {.seed = 2});
+    EXPECT_NE(other.sky.factor, bakeLight(tree, {}).sky.factor) << "the seed matters";
+}
+
+TEST(Links, TranslationToMapCoordinatesChangesNothingThatMatters)
+{
+    const NodeTree here = makeTree(street()), there = makeTree(moved(street(), {5e5, 4.5e6, 250.0}));
+    const LightBake a = bakeLight(here, {}), b = bakeLight(there, {});
+    const std::vector<double> rowsA = patchRowSums(here, a.links), rowsB = patchRowSums(there, b.links);
+    for (u32 i = 0; i < here.patchCount(); ++i) EXPECT_NEAR(rowsA[i], rowsB[i], 0.02) << i;
+    EXPECT_NEAR(a.stats.rowSum.mean, b.stats.rowSum.mean, 5e-4);
+}
+
+TEST(Links, SmallerEpsilonGivesMoreLinksAndLessError)
+{
+    const NodeTree tree = makeTree(room({10, 10, 10}, 8, glm::dvec4(0.5), glm::dvec4(1.0)));
+    double lastError = 1.0;
+    u64 lastCount = 0;
+    for (const double epsilon : {8e-3, 2e-3, 5e-4}) {
+        const LightBake bake = bakeLight(tree, {.formFactorEpsilon = epsilon});
+        double square = 0.0;
+        for (const double sum : patchRowSums(tree, bake.links)) square += (sum - 1.0) * (sum - 1.0) / tree.patchCount();
+        EXPECT_GT(bake.stats.linkCount, lastCount);
+        EXPECT_LT(std::sqrt(square), lastError);
+        lastCount = bake.stats.linkCount;
+        lastError = std::sqrt(square);
+    }
+    EXPECT_LT(lastError, 0.01);
+}
+
+TEST(Links, ProgressRunsFromZeroToOneInEveryStep)
+{
+    const NodeTree tree = makeTree(street());
+    std::string last;
+    double done = 0.0;
+    int finished = 0;
+    bakeLight(tree, {.jobs = 2, .progress = [&](const char* step, double share) {
+                         if (last != step) {
+                             EXPECT_EQ(share, 0.0) << step;
+                         } else {
+                             EXPECT_GE(share, done) << step;
+                         }
+                         last = step;
+                         done = share;
+                         finished += share == 1.0;
+                     }});
+    EXPECT_GE(finished, 5);
+}

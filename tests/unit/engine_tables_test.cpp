@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's pure parts: no device.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "engine/stream/corners.h"
+#include "engine/stream/draw_chunks.h"
+#include "engine/stream/link_packing.h"
+#include "engine/stream/tile_tables.h"
+#include "engine/stream/tree_levels.h"
+#include "tests/support/tile_builder.h"
+
+namespace helio {
+
+namespace {
+
+TEST(LinkPacking, PairsARowAndPadsOddOnes)
+{
+    const std::vector<u32> rows{0, 3, 3, 5}, columns{7, 8, 9, 4, 5};
+    const std::vector<float> factors{0.1f, 0.2f, 0.3f, 0.4f, 0.5f};
+    const auto packed = packLinks(rows, columns, factors, 100);
+    ASSERT_TRUE(packed.ok());
+    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 2, 3}));
+    ASSERT_EQ(packed->pairs.size(), 3u);
+    EXPECT_EQ(packed->pairs[0].column1, 8u);
+    EXPECT_EQ(packed->pairs[1].column0, 9u);
+    EXPECT_EQ(std::bit_cast<float>(packed->pairs[1].factor0), 0.3f);
+    EXPECT_EQ(packed->pairs[1].column1, 9u) << "the padding reads nothing new";
+    EXPECT_EQ(packed->pairs[1].factor1, 0u);
+    EXPECT_EQ(std::bit_cast<float>(packed->pairs[2].factor1), 0.5f);
+    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 3, 0, 3}}));
+}
+
+TEST(LinkPacking, PagesHoldWholeRows)
+{
+    // Rows of 2, 3, 0, 1 and 2 pairs; three pairs a page.
+    const std::vector<u32> rows{0, 4, 9, 9, 11, 15}, columns(15, 1);
+    const std::vector<float> factors(15, 0.5f);
+    const auto packed = packLinks(rows, columns, factors, 3);
+    ASSERT_TRUE(packed.ok());
+    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 1, 0, 2}, {1, 2, 2, 3}, {3, 2, 5, 3}}));
+}
+
+TEST(LinkPacking, RefusesARowThatNoPageHolds)
+{
+    const std::vector<u32> rows{0, 7}, columns(7, 0);
+    const auto packed = packLinks(rows, columns, std::vector<float>(7, 0.1f), 3);
+    ASSERT_FALSE(packed.ok());
+    EXPECT_NE(packed.error().message.find("node 0 has 7 links"), std::string::npos) << packed.error().message;
+}
+
+TEST(TreeLevels, OrdersByHeightAndWeighsByArea)
+{
+    TileBuilder b;
+    for (const float area : {1.0f, 3.0f, 2.0f}) b.patch({0, 0, 1}, area, glm::vec4(0.5f));
+    const u32 pair = b.group({0, 1});
+    const u32 root = b.group({2, pair});
+    const TileView view = b.view();
+    const auto tree = buildTreeLevels(view.nodes, view.children, 3);
+    ASSERT_TRUE(tree.ok());
+    EXPECT_EQ(tree->levels, (std::vector<TreeLevel>{{pair, 1}, {root, 1}}));
+    EXPECT_EQ(tree->parents, (std::vector<u32>{pair, pair, root, root, kNoIndex}));
+    EXPECT_EQ(tree->childRows, (std::vector<u32>{0, 2, 4}));
+    EXPECT_FLOAT_EQ(tree->children[1].weight, 0.75f);
+    EXPECT_EQ(tree->children[3].node, pair);
+    EXPECT_FLOAT_EQ(tree->children[3].weight, 4.0f / 6.0f);
+}
+
+TEST(TreeLevels, RefusesATreeOutOfOrder)
+{
+    const std::vector<u32> children{2, 0};
+    // Node 1 is an inner node whose child 2 comes after it.
+    const std::vector<gpu::NodeRecord> late{{2, 0, 0, 1.0f}, {kNoIndex, 0, 1, 1.0f}, {1, 1, 1, 1.0f}};
+    EXPECT_FALSE(buildTreeLevels(late, children, 1).ok());
+    // Child 0 names another parent than the node that lists it.
+    const std::vector<gpu::NodeRecord> stray{{kNoIndex, 0, 0, 1.0f}, {kNoIndex, 1, 1, 1.0f}};
+    EXPECT_FALSE(buildTreeLevels(stray, children, 1).ok());
+}
+
+/// A row of many boxes, with one asset in two places.
+TileBuilder makeStreet()
+{
+    TileBuilder b;
+    for (int i = 0; i < 800; ++i) b.box({10.0f * float(i), 0, 0}, {10.0f * float(i) + 5.0f, 5, 5}, glm::vec4(0.5f));
+    const std::array<glm::vec3, 4> unit{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    b.asset(0, unit, {{glm::vec4(1, 0, 0, 100), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 20)}});
+    b.asset(1, unit, {{glm::vec4(1, 0, 0, 7000), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 20)}});
+    return b;
+}
+
+u64 countTriangles(const std::vector<gpu::DrawRecord>& draws)
+{
+    u64 count = 0;
+    for (const gpu::DrawRecord& draw : draws) count += u64(draw.indexCount) / 3 * draw.instanceCount;
+    return count;
+}
+
+TEST(DrawChunks, CoverEveryTriangleOnceInsideTheirBoxes)
+{
+    TileBuilder b = makeStreet();
+    const TileView view = b.view();
+    const std::vector<DrawChunk> chunks = buildDrawChunks(view);
+    std::set<std::pair<u32, u32>> seen; // index, instance
+    for (const DrawChunk& chunk : chunks)
+        for (u32 i = 0; i < chunk.draw.instanceCount; ++i)
+            for (u32 k = 0; k < chunk.draw.indexCount; ++k) {
+                const u32 instance = chunk.draw.firstInstance + i, index = chunk.draw.firstIndex + k;
+                EXPECT_TRUE(seen.insert({index, instance}).second);
+                const glm::vec4 p(view.vertices[view.indices[index] + chunk.draw.vertexOffset].position, 1.0f);
+                for (int c = 0; c < 3; ++c) {
+                    const float x = glm::dot(view.instances[instance].worldFromLocal[c], p);
+                    EXPECT_GE(x, chunk.box.lo[c] - 1e-3f);
+                    EXPECT_LE(x, chunk.box.hi[c] + 1e-3f);
+                }
+            }
+    EXPECT_EQ(seen.size(), 800u * 36 + 12);
+    EXPECT_GT(chunks.size(), 4u);
+}
+
+TEST(DrawChunks, CullWhatLiesBeyondAPlane)
+{
+    TileBuilder b = makeStreet();
+    const std::vector<DrawChunk> chunks = buildDrawChunks(b.view());
+    glm::mat4 all(0.0f), far(0.0f); // orthographic: x in [0, 8000], and x in [6500, 8500]
+    for (glm::mat4* m : {&all, &far}) {
+        (*m)[1][1] = (*m)[2][2] = 0.01f;
+        (*m)[3][2] = 0.1f;
+        (*m)[3][3] = 1.0f;
+    }
+    all[0][0] = 1.0f / 4000.0f, all[3][0] = -1.0f;
+    far[0][0] = 1.0f / 1000.0f, far[3][0] = -7.5f;
+    EXPECT_EQ(countTriangles(visibleDraws(chunks, all)), 800u * 12 + 4);
+    EXPECT_EQ(visibleDraws(chunks, all).size(), 3u) << "neighbouring chunks of one draw are one draw again";
+    const std::vector<gpu::DrawRecord> some = visibleDraws(chunks, far);
+    EXPECT_LT(countTriangles(some), 400u * 12);
+    EXPECT_GE(countTriangles(some), 150u * 12 + 2) << "the boxes beyond 6500 m and the asset at 7000 m";
+    EXPECT_EQ(some.back().firstInstance, 2u);
+}
+
+TEST(Corners, CoplanarNeighboursShareAndOthersDoNot)
+{
+    TileBuilder b;
+    const glm::vec4 grey(0.5f);
+    // 0 and 1 side by side on the ground, 2 beside both with a long edge (a T-junction), 3 a wall on the edge of 0.
+    b.quad({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, grey);
+    b.quad({{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}}, grey);
+    b.quad({{{0, 1, 0}, {2, 1, 0}, {2, 2, 0}, {0, 2, 0}}}, grey);
+    b.quad({{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}, grey);
+    const TileView view = b.view();
+    const Corners corners = buildCorners(view.vertices, staticTriangles(view));
+    const auto patchesAt = [&](u32 vertex) {
+        const u32 c = corners.ofVertex[vertex];
+        return std::vector<u32>(corners.patches.begin() + corners.rows[c],
+                                corners.patches.begin() + corners.rows[c + 1]);
+    };
+    EXPECT_EQ(patchesAt(1), (std::vector<u32>{0, 1}));    // (1, 0, 0) of patch 0
+    EXPECT_EQ(patchesAt(2), (std::vector<u32>{0, 1, 2})); // (1, 1, 0) lies inside an edge of 2
+    EXPECT_EQ(patchesAt(3), (std::vector<u32>{0, 2}));    // (0, 1, 0)
+    EXPECT_EQ(patchesAt(0), (std::vector<u32>{0}));       // not the wall: another normal
+    EXPECT_EQ(patchesAt(12), (std::vector<u32>{3}));
+    EXPECT_EQ(corners.ofVertex[1], corners.ofVertex[4]);
+}
+
+} // namespace
+
+} // namespace helio

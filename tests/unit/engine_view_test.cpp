@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras, sun directions and the fit of the sun's picture: no device.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/stages/sun_view.h"
+#include "engine/view/camera.h"
+#include "engine/view/display.h"
+#include "engine/view/light_state.h"
+
+namespace helio {
+
+namespace {
+
+void expectNear(glm::dvec3 a, glm::dvec3 b, double tolerance = 1e-12)
+{
+    EXPECT_NEAR(a.x, b.x, tolerance);
+    EXPECT_NEAR(a.y, b.y, tolerance);
+    EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+TEST(SunDirection, RunsClockwiseFromTrueNorth)
+{
+    expectNear(sunDirection(0, 0, 0), {0, 1, 0});
+    expectNear(sunDirection(90, 0, 0), {1, 0, 0});
+    expectNear(sunDirection(180, 30, 0), {0, -std::sqrt(0.75), 0.5});
+    // +y points 10 degrees east of true north: a sun in true north stands 10 degrees west of +y.
+    expectNear(sunDirection(0, 0, 10), {-std::sin(glm::radians(10.0)), std::cos(glm::radians(10.0)), 0});
+}
+
+TEST(Camera, ProjectsByHand)
+{
+    Camera camera;
+    camera.eye = {0, -10, 0};
+    camera.target = {0, 0, 0};
+    camera.fovDegrees = 90.0;
+    const glm::dmat4 m = clipFromWorld(camera, 2.0);
+    const auto project = [&](glm::dvec3 p) {
+        const glm::dvec4 c = m * glm::dvec4(p, 1.0);
+        return glm::dvec3(c) / c.w;
+    };
+    expectNear(project({0, 0, 0}), {0, 0, 0.01});   // near 0.1 over distance 10
+    expectNear(project({20, 0, 0}), {1, 0, 0.01});  // right edge: tan 45 x 10 x aspect 2
+    expectNear(project({0, 0, 10}), {0, 1, 0.01});  // up
+    expectNear(project({0, -9.9, 0}), {0, 0, 1.0}); // the near plane
+}
+
+TEST(Camera, PresetsLookAtTheCity)
+{
+    const glm::dvec3 lo(-200, -100, 0), hi(200, 100, 30);
+    for (const Camera& camera : {aerialCamera(lo, hi), topCamera(lo, hi)}) {
+        const glm::dvec4 middle = clipFromWorld(camera, 1.6) * glm::dvec4(0, 0, 0, 1);
+        EXPECT_GT(middle.w, 0.0);
+        EXPECT_LT(std::abs(middle.x / middle.w), 0.2);
+        EXPECT_LT(std::abs(middle.y / middle.w), 0.3);
+        EXPECT_GT(camera.eye.z, hi.z);
+    }
+    // From above, everything is in the picture.
+    for (const double x : {lo.x, hi.x})
+        for (const double y : {lo.y, hi.y}) {
+            const glm::dvec4 corner = clipFromWorld(topCamera(lo, hi), 1.6) * glm::dvec4(x, y, 30, 1);
+            EXPECT_LE(std::abs(corner.x), corner.w * 1.05);
+            EXPECT_LE(std::abs(corner.y), corner.w * 1.05);
+        }
+}
+
+TEST(Camera, RefusesWhatItCannotRead)
+{
+    const Pack pack;
+    for (const char* text :
+         {"", "arial", "1,2,3", "1,2,3,4,5,6,7,8", "1,2,3,1,2,3", "0,0,0,1,0,0,180", "0,0,0,1,0,nan", "0,0,0,1,0,0,"})
+        EXPECT_FALSE(parseCamera(text, pack).ok()) << text;
+    const auto camera = parseCamera("1,2,3,-4,5.5,6,50", pack);
+    ASSERT_TRUE(camera.ok());
+    expectNear(camera->target, {-4, 5.5, 6});
+    EXPECT_EQ(camera->fovDegrees, 50.0);
+}
+
+glm::vec3 gridOf(const SunView& view, glm::vec3 p)
+{
+    return glm::vec3(view.gridFromWorld * glm::vec4(p, 1.0f));
+}
+
+TEST(SunView, HoldsEveryBoxInOneOfItsViews)
+{
+    const std::vector<Box> boxes{{{-50, -20, 0}, {60, 35, 30}}, {{100, 100, 5}, {120, 101, 90}}};
+    for (const double azimuth : {0.0, 33.0, 135.0, 250.0})
+        for (const double elevation : {2.0, 45.0, 90.0}) {
+            SunViewOptions options;
+            options.maxViewSize = 500;
+            const SunView view = fitSunView(boxes, sunDirection(azimuth, elevation, 0), options);
+            EXPECT_GT(view.viewCount(), 1u);
+            for (const Box& box : boxes)
+                for (u32 k = 0; k < 8; ++k) {
+                    const glm::vec3 p((k & 1) ? box.hi.x : box.lo.x, (k & 2) ? box.hi.y : box.lo.y,
+                                      (k & 4) ? box.hi.z : box.lo.z);
+                    u32 inside = 0;
+                    for (u32 v = 0; v < view.viewCount(); ++v) {
+                        const glm::vec4 c = view.clipFromWorld(v) * glm::vec4(p, 1.0f);
+                        inside += std::abs(c.x) <= 1.0f && std::abs(c.y) <= 1.0f && c.z >= 0.0f && c.z <= 1.0f;
+                    }
+                    EXPECT_EQ(inside, 1u) << azimuth << ", " << elevation;
+                }
+        }
+}
+
+TEST(SunView, NearerTheSunIsSmallerDepthAndTexelsKeepTheirArea)
+{
+    const std::vector<Box> boxes{{{0, 0, 0}, {100, 40, 20}}};
+    const glm::dvec3 sun = sunDirection(200, 50, 0);
+    const SunView view = fitSunView(boxes, sun, {});
+    const glm::vec3 p(10, 10, 10);
+    EXPECT_LT(gridOf(view, p + glm::vec3(sun)).z, gridOf(view, p).z);
+    // A step towards the sun moves along the line of sight alone.
+    EXPECT_NEAR(gridOf(view, p + glm::vec3(sun)).x, gridOf(view, p).x, 1e-4);
+    // The determinant over two steps across the sun is one texel area a texel, whatever the shears.
+    const glm::dvec3 a = glm::normalize(glm::cross(sun, glm::dvec3(0, 0, 1))), b = glm::cross(sun, a);
+    const glm::vec4 o = view.clipFromWorld(0) * glm::vec4(p, 1.0f);
+    const glm::vec4 da = view.clipFromWorld(0) * glm::vec4(p + glm::vec3(a), 1.0f) - o;
+    const glm::vec4 db = view.clipFromWorld(0) * glm::vec4(p + glm::vec3(b), 1.0f) - o;
+    const double texels = std::abs(double(da.x) * db.y - double(da.y) * db.x) / 4.0 * view.width * view.height;
+    EXPECT_NEAR(texels * view.texelArea(), 1.0, 1e-3);
+}
+
+TEST(SunView, AStreetGetsTexelsShapedToIt)
+{
+    // 4 km by 40 m, askew: a picture of square texels over its axis-parallel bounds would take 4 km x 4 km.
+    std::vector<Box> boxes;
+    for (int i = 0; i < 1000; ++i) {
+        const float x = 2.9f * float(i), y = 2.8f * float(i);
+        boxes.push_back({{x, y, 0}, {x + 30.0f, y + 30.0f, 20}});
+    }
+    SunViewOptions options;
+    const SunView view = fitSunView(boxes, sunDirection(120, 60, 0), options);
+    const u64 texels = u64(view.viewCount()) * view.width * view.height;
+    EXPECT_LE(texels, options.maxTexels);
+    EXPECT_LT(double(texels) * view.texelArea(), 4100.0 * 90.0);
+    EXPECT_LT(view.texelX, 0.08);
+    EXPECT_LE(std::max(view.width, view.height), options.maxViewSize);
+}
+
+TEST(Display, LinearOutputHasNoTint)
+{
+    LightState light;
+    light.towardsSun = sunDirection(150, 40, 0);
+    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, false, 0.0);
+    EXPECT_EQ(v.sunLight, glm::vec4(800.0f));
+    EXPECT_EQ(v.skyTint, glm::vec4(1.0f));
+    EXPECT_NEAR(double(v.zenith.r), 120.0 / 3.14159265, 1e-4);
+    EXPECT_EQ(glm::vec3(v.horizon), glm::vec3(v.zenith));
+    EXPECT_EQ(glm::vec3(v.ground), glm::vec3(0.0f));
+    EXPECT_EQ(forwardParams({}, 1.5, {}, false).eye.w, 0.0f);
+}
+
+TEST(Display, TintsKeepTheBrightness)
+{
+    LightState light;
+    light.towardsSun = sunDirection(150, 10, 0);
+    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, true, 0.0);
+    const auto luminance = [](glm::vec4 c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };
+    EXPECT_NEAR(luminance(v.sunLight), 800.0, 0.01);
+    EXPECT_NEAR(luminance(v.skyTint), 1.0, 1e-5);
+    EXPECT_GT(v.sunLight.r, v.sunLight.b);
+}
+
+} // namespace
+
+} // namespace helio

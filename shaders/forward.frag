@@ -13,13 +13,13 @@ layout(constant_id = 0) const uint kMode = kModeFinal;
 layout(constant_id = 1) const bool kInterpolate = false;
 layout(constant_id = 2) const bool kEmitters = false;
 layout(push_constant, scalar) uniform Params { ForwardParams params; };
-layout(set = 0, binding = kForwardShadow) uniform sampler2DArrayShadow shadow;
+layout(set = 0, binding = kForwardShadow) uniform sampler2DArray shadow;
 layout(set = 0, binding = kForwardPatches, scalar) readonly buffer Patches { PatchRecord patches[]; };
 layout(set = 0, binding = kForwardSun, scalar) readonly buffer Sun { vec4 sun[]; };
 layout(set = 0, binding = kForwardSky, scalar) readonly buffer Sky { vec4 sky[]; };
 layout(set = 0, binding = kForwardIndirect, scalar) readonly buffer Indirect { vec4 indirect[]; };
 layout(set = 0, binding = kForwardRadiosity, scalar) readonly buffer Radiosity { vec4 radiosity[]; };
-layout(location = 0) in vec3 vPosition;
+layout(location = 0) in vec3 vFromEye;
 layout(location = 1) in vec3 vNormal;
 layout(location = 2) in vec3 vAlbedo;
 layout(location = 3) in vec3 vSky;
@@ -27,27 +27,54 @@ layout(location = 4) in vec3 vIndirect;
 layout(location = 5) flat in uint vPatch;
 layout(location = 0) out vec4 oRadiance;
 
-// The fraction of this point that the sun reaches: four bilinear comparisons, a tent three texels wide. A plane under angle
-// theta to the sun departs from its depth sample by texel tan(theta) over one texel; moving the point out by 2.2 texel
-// sin(theta) along its normal clears that for all samples of the tent, whatever the angle.
-float sunVisibility(vec3 normal, float cosine)
+// The fraction of this point that the sun reaches: nine depth comparisons, a tent three texels wide. Each texel is compared
+// with the depth that the point's own plane has at the texel's centre (its depth there is what the raster stored), so the
+// test stays sharp at grazing light, where any constant bias would move shadows by metres. Where the plane falls away from
+// the sun the point's own depth is taken instead: beyond a concave edge there is another surface, not the plane.
+// across, along: derivatives of the point's position over the picture, m.
+float sunVisibility(float cosine, vec3 across, vec3 along)
 {
     if (view.sunDirection.w == 0.0 || cosine <= 0.0) return 0.0;
-    const float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
-    const vec4 outside = vec4(vPosition + normal * (2.2 * view.shadowTexel * sine), 1.0);
-    vec2 at = vec2(dot(params.sunRow0, outside), dot(params.sunRow1, outside));
+    const vec2 size = 1.0 / view.shadowStep;
+    const vec4 point = vec4(vFromEye + params.eye.xyz, 1.0);
+    vec2 at = vec2(dot(params.sunRow0, point), dot(params.sunRow1, point));
     vec2 cell;
     cell.x = clamp(floor(at.x), 0.0, view.gridSize.x - 1.0);
     at.y += view.sunShear * (at.x - cell.x);
     cell.y = clamp(floor(at.y), 0.0, view.gridSize.y - 1.0);
-    // The samples stay inside the view: beyond its edge there is no depth to compare with.
-    const vec2 uv = clamp(vec2(at.x - cell.x, 1.0 - (at.y - cell.y)), view.shadowStep, 1.0 - view.shadowStep);
     const float layer = cell.y * view.gridSize.x + cell.x;
-    const float depth = dot(params.sunRow2, outside) - (0.002 + 0.25 * view.shadowTexel) / view.depthRange;
-    const vec2 s = 0.5 * view.shadowStep;
-    return 0.25 * (texture(shadow, vec4(uv - s, layer, depth)) + texture(shadow, vec4(uv + s, layer, depth)) +
-                   texture(shadow, vec4(uv.x - s.x, uv.y + s.y, layer, depth)) +
-                   texture(shadow, vec4(uv.x + s.x, uv.y - s.y, layer, depth)));
+    const vec2 texel = size * vec2(at.x - cell.x, 1.0 - (at.y - cell.y)); // centres at one half
+    const float depth = dot(params.sunRow2, point);
+
+    // Depth a texel, in x and in y, along the plane.
+    const vec3 texelX = size.x * params.sunRow0.xyz;
+    const vec3 texelY = -size.y * (params.sunRow1.xyz + view.sunShear * params.sunRow0.xyz);
+    const vec2 du = vec2(dot(texelX, across), dot(texelX, along));
+    const vec2 dv = vec2(dot(texelY, across), dot(texelY, along));
+    const vec2 dz = vec2(dot(params.sunRow2.xyz, across), dot(params.sunRow2.xyz, along));
+    const float determinant = du.x * dv.y - du.y * dv.x;
+    vec2 slope = vec2(dz.x * dv.y - dz.y * dv.x, du.x * dz.y - du.y * dz.x) / determinant;
+    const float steepest = 10.0 / view.depthRange;
+    slope = determinant == 0.0 ? vec2(0.0) : clamp(slope, -steepest, steepest);
+    const float bias = (0.002 + 0.25 * view.shadowTexel) / view.depthRange + 0.02 * (abs(slope.x) + abs(slope.y));
+
+    // The samples stay inside the view: beyond its edge there is no depth to compare with.
+    const vec2 from = clamp(texel, vec2(1.5), size - 1.5) - 1.0;
+    const vec2 first = floor(from); // of three texels along each axis
+    const vec2 share = from - first;
+    float sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const vec2 corner = first + vec2(k & 1, k >> 1);
+        // Order of a gather: (0, 1), (1, 1), (1, 0), (0, 0).
+        const vec4 stored = textureGather(shadow, vec3((corner + 1.0) * view.shadowStep, layer), 0);
+        const vec2 d = corner + 0.5 - texel;
+        const float plane = dot(slope, d);
+        const vec4 reference = depth - bias + min(plane + vec4(slope.y, slope.x + slope.y, slope.x, 0.0), 0.0);
+        const vec4 lit = vec4(greaterThanEqual(stored, reference));
+        const vec2 row = mix(lit.wx, lit.zy, share.x);
+        sum += mix(row.x, row.y, share.y);
+    }
+    return 0.25 * sum;
 }
 
 vec3 hashColour(uint id)
@@ -61,9 +88,9 @@ vec3 hashColour(uint id)
 void main()
 {
     // Polygons are drawn from both sides: the normal follows the side that is seen.
-    const vec3 toEye = params.eye.xyz - vPosition;
-    vec3 seen = cross(dFdx(vPosition), dFdy(vPosition));
-    seen = dot(seen, toEye) < 0.0 ? -seen : seen;
+    const vec3 across = dFdx(vFromEye), along = dFdy(vFromEye);
+    vec3 seen = cross(across, along);
+    seen = dot(seen, vFromEye) > 0.0 ? -seen : seen;
     vec3 normal = normalize(vNormal);
     normal = dot(normal, seen) < 0.0 ? -normal : normal;
     const float cosine = dot(normal, view.sunDirection.xyz);
@@ -71,9 +98,9 @@ void main()
     if (kMode == kModeId) {
         oRadiance = vec4(hashColour(vPatch), float(vPatch));
     } else if (kMode == kModeDepth) {
-        oRadiance = vec4(length(toEye));
+        oRadiance = vec4(length(vFromEye));
     } else if (kMode == kModeSunVisibility) {
-        oRadiance = vec4(sunVisibility(normal, cosine));
+        oRadiance = vec4(sunVisibility(cosine, across, along));
     } else if (kMode == kModeSun) {
         oRadiance = sun[vPatch];
     } else if (kMode == kModeSky) {
@@ -83,14 +110,14 @@ void main()
     } else if (kMode == kModeRadiosity) {
         oRadiance = radiosity[vPatch];
     } else {
-        const vec3 direct = view.sunLight.rgb * (max(cosine, 0.0) * sunVisibility(normal, cosine));
+        const vec3 direct = view.sunLight.rgb * (max(cosine, 0.0) * sunVisibility(cosine, across, along));
         const vec3 fromSky = kInterpolate ? vSky : sky[vPatch].rgb;
         const vec3 bounced = kInterpolate ? vIndirect : indirect[vPatch].rgb;
         vec3 radiance = vAlbedo * (direct + fromSky * view.skyTint.rgb + bounced);
         if (kEmitters) radiance += view.emissionScale * patches[vPatch].emission.rgb;
         radiance /= kPi;
         // Distance turns to the horizon's colour.
-        const float clear = exp(-length(toEye) * params.eye.w);
+        const float clear = exp(-length(vFromEye) * params.eye.w);
         radiance = mix(view.horizon.rgb, radiance, clear);
         oRadiance = vec4(radiance, 1.0);
     }

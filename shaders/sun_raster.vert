@@ -14,4 +14,6 @@ void main()
 {
     vPatch = patchOfVertex();
     gl_Position = params.clipFromWorld * vec4(worldPosition(), 1.0);
+    // Along an edge that a lit and an unlit surface share, rounding must not let light in: the unlit one wins.
+    if (dot(worldNormal(), params.towardsSun.xyz) < 0.0) gl_Position.z -= params.towardsSun.w;
 }

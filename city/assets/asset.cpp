@@ -21,6 +21,7 @@ namespace {
 
 constexpr size_t kMaxVertices = 4'000'000, kMaxIndices = 12'000'000; ///< of one asset
 constexpr int kMaxNodeDepth = 32;
+constexpr u32 kMaxNodeVisits = 100'000; ///< nodes that share children make exponentially many of them
 constexpr float kMaxCoordinate = 1e6f;
 
 /// Elements of an accessor, checked against buffer view and buffer.
@@ -89,6 +90,8 @@ private:
         if (index < 0 || size_t(index) >= model_.nodes.size()) return fail(concat("node ", index, " does not exist"));
         if (depth > kMaxNodeDepth)
             return fail(concat("its nodes nest deeper than ", kMaxNodeDepth, " levels, or in a circle"));
+        if (++nodeVisits_ > kMaxNodeVisits)
+            return fail(concat("its scene has more than ", kMaxNodeVisits, " nodes, shared ones counted each time"));
         const tinygltf::Node& node = model_.nodes[size_t(index)];
         const glm::dmat4 transform = parent * transformOf(node);
         if (node.mesh >= 0 && !addMesh(node.mesh, transform)) return false;
@@ -248,6 +251,7 @@ private:
     AssetMesh& mesh_;
     std::string message_;
     std::vector<glm::dvec4> triangleRho_;
+    u32 nodeVisits_ = 0;
 };
 
 /// Pictures are not used, so none is decoded.

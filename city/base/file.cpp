@@ -6,13 +6,15 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <unistd.h>
 
 namespace helio {
 
 Result<std::string> readTextFile(const std::filesystem::path& path)
 {
     std::error_code failure;
-    if (std::filesystem::is_directory(path, failure)) return Error{concat(path.string(), ": is a folder, a file is needed")};
+    if (std::filesystem::is_directory(path, failure))
+        return Error{concat(path.string(), ": is a folder, a file is needed")};
     std::ifstream in(path, std::ios::binary);
     if (!in) return Error{concat(path.string(), ": cannot be opened: ", std::strerror(errno))};
     std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -39,6 +41,19 @@ Status writeFileAtomically(const std::filesystem::path& path, std::span<const st
         std::filesystem::remove(temporary, failure);
         return Error{concat(path.string(), ": cannot be written: ", reason)};
     }
+    return Nothing{};
+}
+
+Status checkFileTarget(const std::filesystem::path& path)
+{
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    std::error_code failure;
+    if (!std::filesystem::is_directory(folder, failure))
+        return Error{concat(path.string(), ": cannot be written: there is no folder ", folder.string())};
+    if (!path.has_filename() || std::filesystem::is_directory(path, failure))
+        return Error{concat(path.string(), ": cannot be written: it is a folder, a file is needed")};
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        return Error{concat(path.string(), ": cannot be written: ", folder.string(), ": ", std::strerror(errno))};
     return Nothing{};
 }
 

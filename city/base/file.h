@@ -17,4 +17,8 @@ Result<std::string> readTextFile(const std::filesystem::path& path);
 Status writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status writeTextAtomically(const std::filesystem::path& path, std::string_view text);
 
+/// Says in one line why no file can be written at `path` (its folder is missing or closed, a folder lies there): to be
+/// asked before the work whose result goes there.
+Status checkFileTarget(const std::filesystem::path& path);
+
 } // namespace helio

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "city/base/hash.h"
+#include "city/base/json_depth.h"
 
 namespace helio {
 namespace {
@@ -152,11 +153,16 @@ Result<IndexText> decodeIndex(std::string_view text, const std::string& name)
     const std::string_view body = text.substr(0, text.size() - kLastLineBytes);
     if (hashText(body) != *checksum) return fail(body.size(), "the checksum of the index does not match");
 
+    const std::string_view document = body.substr(lineEnd);
+    if (const std::optional<size_t> deep = findDeepJson(document))
+        return fail(lineEnd + *deep, "this nests deeper than ", kMaxJsonDepth, " levels");
     Json json;
     try {
-        json = Json::parse(body.substr(lineEnd));
+        json = Json::parse(document);
     } catch (const Json::parse_error& error) {
         return fail(lineEnd + error.byte, "this is not JSON");
+    } catch (const Json::exception&) { // A number that no double can hold, for one.
+        return fail(lineEnd, "this JSON holds a value that cannot be read");
     }
     IndexText out;
     PackIndex& index = out.index;

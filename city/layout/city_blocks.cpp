@@ -8,11 +8,6 @@ namespace helio {
 
 namespace {
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-
 // Lines of the lattice with their street widths.
 struct Lines
 {

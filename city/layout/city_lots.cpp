@@ -11,11 +11,6 @@ namespace helio {
 
 namespace {
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-
 // One corner of the block, or the two of a cut corner: the house that stands around it.
 struct CornerHouse
 {

@@ -10,9 +10,9 @@ namespace helio {
 
 struct ImportOptions
 {
-    double defaultHeight = 12.0;   ///< m, for a footprint without any hint of its height
-    double storeyHeight = 3.2;     ///< m per level, where only `levels` is given: height = levels * storeyHeight + 1
-    double neighbourRadius = 50.0; ///< m: a missing height is the median of the known ones within it; 0 = never
+    double defaultHeight = 12.0;  ///< m, for a footprint without any hint of its height
+    double storeyHeight = 3.2;    ///< m per level, where only `levels` is given: height = levels * storeyHeight + 1
+    double neighbourRadius = 0.0; ///< m: a missing height is the median of the known ones within it; 0 = never
 };
 
 /// Reads building footprints: a FeatureCollection, Feature or bare geometry of Polygon and MultiPolygon, metres, x

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "city/base/json_depth.h"
+
 namespace helio {
 
 namespace {
@@ -41,6 +43,14 @@ std::string idOf(const json& feature, size_t number)
     const json* properties = find(feature, "properties");
     if (const json* own = properties ? find(*properties, "id") : nullptr; own && id.empty()) id = idText(*own);
     return id.empty() ? concat("#", number) : id;
+}
+
+// A value for a message, at most 40 bytes of it.
+std::string shortText(const json& value)
+{
+    if (value.is_array()) return "an array";
+    if (value.is_object()) return "an object";
+    return value.dump().substr(0, 40);
 }
 
 // A number, or a text that is a number with at most the unit m behind it ("12", "12 m", "12.5m").
@@ -131,8 +141,7 @@ private:
         const bool usable = number && *number > 0.0 && *number <= largest;
         const std::string outcome = usable ? concat("is read as ", *number) : "is not usable, ignored";
         if (!usable || value.is_string())
-            file_.notes.push_back(
-                concat("feature ", feature.id, ": ", key, " ", value.dump().substr(0, 40), " ", outcome));
+            file_.notes.push_back(concat("feature ", feature.id, ": ", key, " ", shortText(value), " ", outcome));
         return usable ? number : std::nullopt;
     }
 
@@ -236,13 +245,16 @@ std::string reasonOf(const std::exception& failure)
 
 Result<GeoFile> readGeoFeatures(std::string_view text, std::string_view name)
 {
+    const auto failAt = [&](size_t byte, const std::string& what) {
+        const auto line = 1 + std::count(text.begin(), text.begin() + long(byte), '\n');
+        return Error{concat(name, ":", line, ": byte ", byte, ": ", what, "; export the footprints as GeoJSON")};
+    };
+    if (const std::optional<size_t> deep = findDeepJson(text))
+        return failAt(*deep, concat("nests deeper than ", kMaxJsonDepth, " levels"));
     try {
         return Reader(name).read(json::parse(text));
     } catch (const json::parse_error& failure) {
-        const size_t byte = std::min(failure.byte, text.size());
-        const auto line = 1 + std::count(text.begin(), text.begin() + long(byte), '\n');
-        return Error{concat(name, ":", line, ": byte ", byte, ": not JSON (", reasonOf(failure),
-                            "); export the footprints as GeoJSON")};
+        return failAt(std::min(failure.byte, text.size()), concat("not JSON (", reasonOf(failure), ")"));
     } catch (const json::exception& failure) {
         return Error{concat(name, ": ", reasonOf(failure), "; export the footprints as GeoJSON")};
     }

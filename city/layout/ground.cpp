@@ -5,11 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
 
 #include "city/base/check.h"
 #include "city/layout/box_grid.h"
 #include "city/layout/clip.h"
 #include "city/layout/courts.h"
+#include "city/model/materials.h"
 
 namespace helio {
 
@@ -159,6 +161,13 @@ std::vector<Region> givenRegions(const Layout& layout, std::vector<std::string>&
     return regions;
 }
 
+u32 surfaceIndex(ShapeTree& tree, const Surface& surface)
+{
+    auto place = std::find(tree.surfaces.begin(), tree.surfaces.end(), surface);
+    if (place == tree.surfaces.end()) place = tree.surfaces.insert(place, surface);
+    return u32(place - tree.surfaces.begin());
+}
+
 } // namespace
 
 void addGround(Layout& layout, const GroundOptions& options)
@@ -212,12 +221,7 @@ void addGround(Layout& layout, const GroundOptions& options)
 
 Surface groundSurface(const std::string& kind)
 {
-    const auto grey = [&](double rho) { return Surface{kind, glm::dvec4(rho), glm::dvec4(0.0)}; };
-    if (kind == "street") return grey(0.12);
-    if (kind == "pavement") return grey(0.30);
-    if (kind == "court") return grey(0.25);
-    if (kind == "green") return {kind, {0.10, 0.16, 0.07, 0.22}, glm::dvec4(0.0)};
-    return grey(0.20);
+    return {kind, findMaterial(kind).value_or(glm::dvec4(0.20)), glm::dvec4(0.0)};
 }
 
 void appendGround(ShapeTree& tree, const Layout& layout)
@@ -234,15 +238,15 @@ void appendGround(ShapeTree& tree, const Layout& layout)
     };
     const u32 root = addShape(kNoIndex, "Ground", ShapeOp::Root);
     u32 group = kNoIndex, block = kNoIndex;
+    std::map<std::string, u32> surfaceOf; // by kind
     for (size_t i = 0; i < layout.ground.size(); ++i) {
         const GroundArea& piece = layout.ground[i];
         if (i == 0 || piece.block != block) group = addShape(root, "Block", ShapeOp::Group);
         block = piece.block;
         Shape& leaf = tree.shapes[addShape(group, piece.kind, ShapeOp::Group)];
-        const Surface surface = groundSurface(piece.kind);
-        auto place = std::find(tree.surfaces.begin(), tree.surfaces.end(), surface);
-        if (place == tree.surfaces.end()) place = tree.surfaces.insert(place, surface);
-        leaf.surface = u32(place - tree.surfaces.begin());
+        const auto [known, isNew] = surfaceOf.try_emplace(piece.kind, 0);
+        if (isNew) known->second = surfaceIndex(tree, groundSurface(piece.kind));
+        leaf.surface = known->second;
         leaf.polygonBegin = u32(tree.polygons.size());
         leaf.polygonCount = 1;
         tree.polygons.push_back(piece.polygon);

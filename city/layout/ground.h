@@ -24,8 +24,7 @@ void addGround(Layout& layout, const GroundOptions& options = {});
 /// its kind, with groundSurface(kind). buildNodes makes the balanced planar tree of each block from it.
 void appendGround(ShapeTree& tree, const Layout& layout);
 
-/// Reflectance by kind: street (asphalt) 0.12, pavement 0.30, court (paving) 0.25, green (grass) 0.10 0.16 0.07 and
-/// 0.22 broadband because leaves reflect infrared; 0.20 for any other kind. No emission.
+/// Reflectance by kind, as findMaterial has it; 0.20 for a kind that is no material. No emission.
 Surface groundSurface(const std::string& kind);
 
 } // namespace helio

@@ -21,11 +21,6 @@ constexpr double kShortEdge = 0.1;      // m
 constexpr double kSmallPiece = 1.0;     // m2
 constexpr double kSliverWidth = 0.1;    // m, twice the area over the perimeter
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-
 double distanceToLine(const glm::dvec2& point, const glm::dvec2& a, const glm::dvec2& b)
 {
     const double length = glm::distance(a, b);
@@ -202,17 +197,6 @@ void collapse(Polygon2& polygon, RepairReport& report)
 }
 
 } // namespace
-
-bool contains(const Ring2& ring, const glm::dvec2& point)
-{
-    bool inside = false;
-    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-        const glm::dvec2 a = ring[i], b = ring[j];
-        if ((a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x)
-            inside = !inside;
-    }
-    return inside;
-}
 
 bool isSimple(const Polygon2& polygon)
 {

@@ -24,9 +24,6 @@ struct RepairReport
 /// and none in another.
 bool isSimple(const Polygon2& polygon);
 
-/// True if the point lies inside the ring (even-odd); points on the border may go either way.
-bool contains(const Ring2& ring, const glm::dvec2& point);
-
 /// Makes simple polygons of an arbitrary one (coordinates within kGridLimit): repeats, spikes and straight corners are
 /// dropped, rings oriented (outer counter-clockwise), crossing rings united by non-zero filling on a grid of 0.1 mm,
 /// edges below 0.1 m collapsed, small pieces and slivers dropped. A clean polygon keeps its coordinates to the last

@@ -27,11 +27,6 @@ struct Cover
     double height;
 };
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-
 // The part of `wall` that `other` stands against, if any.
 bool coverOf(const Wall& wall, const Wall& other, Cover& cover)
 {

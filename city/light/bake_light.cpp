@@ -15,13 +15,16 @@
 namespace helio {
 namespace {
 
-constexpr double kDefaultEpsilon = 5e-4;      // up to kSmallScene patches; see the table in README.md
+constexpr double kDefaultEpsilon = 5e-4; // up to kSmallScene patches; see the table in README.md
 constexpr double kSmallScene = 4000.0;
 constexpr double kDefaultPaperEpsilon = 0.02; // form factor
 constexpr u32 kTrainingSuns = 8;
 
 /// Grows with the scene, so that time stays in bounds: about 70 links a patch at 10^4 patches, 35 at 5 10^5.
-double defaultEpsilon(u32 patchCount) { return kDefaultEpsilon * std::pow(std::max(1.0, double(patchCount) / kSmallScene), 0.3); }
+double defaultEpsilon(u32 patchCount)
+{
+    return kDefaultEpsilon * std::pow(std::max(1.0, double(patchCount) / kSmallScene), 0.3);
+}
 
 void checkTree(const NodeTree& tree)
 {
@@ -29,14 +32,15 @@ void checkTree(const NodeTree& tree)
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         const Node& node = tree.nodes[i];
         HELIO_CHECK(node.area > 0.0, "node ", i, " has area ", node.area);
-        HELIO_CHECK(node.parent == kNoIndex || (node.parent > i && node.parent < tree.nodeCount()), "node ", i, " has parent ",
-                    node.parent);
+        HELIO_CHECK(node.parent == kNoIndex || (node.parent > i && node.parent < tree.nodeCount()), "node ", i,
+                    " has parent ", node.parent);
         HELIO_CHECK(node.kind == NodeKind::Cluster || (node.coverage > 0.0 && node.ringCount > 0), "planar node ", i,
                     " has coverage ", node.coverage, " and ", node.ringCount, " rings");
     }
 }
 
-template <class Values> MinMeanMax summarise(const NodeTree& tree, const std::vector<u32>& patches, const Values& values)
+template <class Values>
+MinMeanMax summarise(const NodeTree& tree, const std::vector<u32>& patches, const Values& values)
 {
     MinMeanMax result;
     if (patches.empty()) return result;
@@ -57,9 +61,16 @@ void summariseRows(const NodeTree& tree, const LinkTable& links, const SkyScan& 
 {
     constexpr float kInside = 0.01f; // share of rays that meet back sides
     std::vector<u32> open;
-    for (u32 i = 0; i < tree.patchCount(); ++i)
-        if (scan.back[i] <= kInside) open.push_back(i);
+    double area = 0.0, insideArea = 0.0;
+    for (u32 i = 0; i < tree.patchCount(); ++i) {
+        area += tree.patches[i].area;
+        if (scan.back[i] <= kInside)
+            open.push_back(i);
+        else
+            insideArea += tree.patches[i].area;
+    }
     stats.insidePatchCount = tree.patchCount() - u32(open.size());
+    if (area > 0.0) stats.insideAreaShare = insideArea / area;
     const std::vector<double> rowSums = patchRowSums(tree, links);
     std::vector<double> closure(rowSums);
     for (const u32 i : open) closure[i] += double(scan.sky[i]) + double(scan.below[i]) + double(scan.back[i]);
@@ -82,7 +93,8 @@ public:
         report(name, 0.0);
         auto result = body([this, name](double done) { report(name, done); });
         report(name, 1.0);
-        stats_.seconds.push_back({name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+        stats_.seconds.push_back(
+            {name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
         return result;
     }
 
@@ -111,30 +123,35 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
     });
     stats.rootPairCount = u32(scan.rootPairs.size());
 
-    std::vector<NodePair> pairs;
+    const auto makeRows = [&](const auto& pairs) {
+        bake.links = steps.run("rows", [&](auto) { return linkTable(tree, std::span(pairs), options.jobs); });
+    };
+    const auto epsilonOr = [&](double chosen) {
+        return stats.formFactorEpsilon = options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : chosen;
+    };
     if (options.method == LinkMethod::Heliopolis) {
         const Training training = steps.run("training lights", [&](auto) {
             return trainLights(tree, *visibility, scan.sky, kTrainingSuns, options.jobs);
         });
         LinkOptions link;
-        link.epsilon = options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : defaultEpsilon(tree.patchCount());
+        link.epsilon = epsilonOr(defaultEpsilon(tree.patchCount()));
         if (options.raysPerLink > 0) link.raysPerLink = options.raysPerLink;
+        stats.raysPerLink = link.raysPerLink;
         link.jobs = options.jobs;
         link.seed = options.seed;
-        LinkBuild build = steps.run("links", [&](auto progress) {
+        const LinkBuild build = steps.run("links", [&](auto progress) {
             link.progress = progress;
             return buildLinks(tree, *visibility, training, scan.rootPairs, link);
         });
         stats.pairsEvaluated = build.evaluated;
-        pairs = std::move(build.pairs);
+        makeRows(build.pairs);
     } else {
         PaperOptions paper;
-        paper.epsilon = options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : kDefaultPaperEpsilon;
+        paper.epsilon = epsilonOr(kDefaultPaperEpsilon);
         paper.cutoff = options.cutoff;
         paper.literal = options.method == LinkMethod::PaperLiteral;
-        pairs = steps.run("links", [&](auto) { return paperLinks(tree, paper); });
+        makeRows(steps.run("links", [&](auto) { return paperLinks(tree, paper); }));
     }
-    bake.links = steps.run("rows", [&](auto) { return linkTable(tree, pairs, options.jobs); });
     bake.sky = uniformSkyTable(scan);
 
     stats.linkCount = bake.links.column.size();

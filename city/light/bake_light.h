@@ -12,8 +12,9 @@ namespace helio {
 /// How links are chosen and weighed.
 enum class LinkMethod : u8
 {
-    Heliopolis,  ///< no cut-off, form factor x visibility, refined by the error that a link leaves (design.md part 4)
-    Paper,       ///< the source paper's algorithms, repaired: form factor threshold, cut-off by box distance, no visibility
+    Heliopolis, ///< no cut-off, form factor x visibility, refined by the error that a link leaves (city/README.md,
+                ///< "Decisions")
+    Paper, ///< the source paper's algorithms, repaired: form factor threshold, cut-off by box distance, no visibility
     PaperLiteral ///< as printed: centre distance, the wrong node is refined, pairs that refine a leaf are lost
 };
 
@@ -21,15 +22,17 @@ enum class LinkMethod : u8
 struct LightOptions
 {
     LinkMethod method = LinkMethod::Heliopolis;
-    /// Heliopolis: the irradiance error that one link may leave in a patch of mean size, as a fraction of the scene's mean
-    /// radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = the method's default.
+    /// Heliopolis: the irradiance error that one link may leave in a patch of mean size, as a fraction of the scene's
+    /// mean radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = the
+    /// method's default.
     double formFactorEpsilon = 0.0;
-    u32 raysPerPatch = 0;  ///< sky rays of a patch; 0 = 64 million over the number of patches, within [128, 1024]
-    u32 raysPerLink = 0;   ///< visibility rays of a pair of parts (a link has up to 16 such pairs); 0 = 4
-    double cutoff = 22.5;  ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
-    u32 jobs = 0;          ///< threads; 0 = all cores. The result does not depend on it.
+    u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = 64 million over the number of patches, within [128, 1024]
+    u32 raysPerLink = 0;  ///< visibility rays of a pair of parts (a link has up to 16 such pairs); 0 = 4
+    double cutoff = 22.5; ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
+    u32 jobs = 0;         ///< threads; 0 = all cores. The result does not depend on it.
     u64 seed = 1;
-    std::function<void(const char* step, double done)> progress{}; ///< may be empty; called from one thread at a time, done in 0..1
+    std::function<void(const char* step, double done)>
+        progress{}; ///< may be empty; called from one thread at a time, done in 0..1
 };
 
 struct MinMeanMax
@@ -46,18 +49,22 @@ struct StepSeconds
 /// What a bake says about itself.
 struct LightStats
 {
-    u64 linkCount = 0;          ///< directed links
-    double linksPerPatch = 0.0; ///< linkCount / patches
-    u32 rootPairCount = 0;      ///< pairs of planar roots that may see each other
-    u64 pairsEvaluated = 0;     ///< node pairs that the oracle looked at
-    u32 raysPerPatch = 0;
-    /// Patches of which more than 1 % of the rays meet back sides: walls against a neighbour's wall or inside a solid. What they
-    /// see hangs on the order of coincident faces; the sums below leave them out.
+    u64 linkCount = 0;              ///< directed links
+    double linksPerPatch = 0.0;     ///< linkCount / patches
+    u32 rootPairCount = 0;          ///< pairs of planar roots that may see each other
+    u64 pairsEvaluated = 0;         ///< node pairs that the oracle looked at
+    double formFactorEpsilon = 0.0; ///< as used: the option or the method's default
+    u32 raysPerPatch = 0;           ///< as used
+    u32 raysPerLink = 0;            ///< as used; 0 for the paper methods, which shoot none
+    /// Patches of which more than 1 % of the rays meet back sides: walls against a neighbour's wall or inside a solid.
+    /// What they see hangs on the order of coincident faces; the sums below leave them out.
     u32 insidePatchCount = 0;
-    MinMeanMax closure;    ///< per patch: links (own and ancestors') + sky + escape below the horizon + back sides; 1 = closed
-    MinMeanMax rowSum;     ///< per patch: links, own and ancestors'
-    MinMeanMax rayRowSum;  ///< per patch: fraction of its rays that hit a lit side
-    MinMeanMax sky;        ///< per patch: fraction of its rays that reach the sky
+    double insideAreaShare = 0.0; ///< their share of the area of all patches, 0..1
+    MinMeanMax
+        closure; ///< per patch: links (own and ancestors') + sky + escape below the horizon + back sides; 1 = closed
+    MinMeanMax rowSum;          ///< per patch: links, own and ancestors'
+    MinMeanMax rayRowSum;       ///< per patch: fraction of its rays that hit a lit side
+    MinMeanMax sky;             ///< per patch: fraction of its rays that reach the sky
     double closureDefect = 0.0; ///< mean(rowSum) / mean(rayRowSum) - 1; more than 1 % away from 0 means missing senders
     std::vector<StepSeconds> seconds;
 };
@@ -69,9 +76,9 @@ struct LightBake
     LightStats stats;
 };
 
-/// Computes what light does in a city once, for every sun and every sky: the links between nodes and the patches' view of the
-/// sky. Deterministic: the same tree and options give the same bytes for any number of jobs. Aborts (HELIO_CHECK) on a tree
-/// whose areas or indices are not valid.
+/// Computes what light does in a city once, for every sun and every sky: the links between nodes and the patches' view
+/// of the sky. Deterministic: the same tree and options give the same bytes for any number of jobs. Aborts
+/// (HELIO_CHECK) on a tree whose areas or indices are not valid.
 LightBake bakeLight(const NodeTree& tree, const LightOptions& options);
 
 } // namespace helio

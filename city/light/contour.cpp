@@ -12,9 +12,15 @@ namespace helio {
 namespace {
 
 /// d atan(s / d), continuous at d = 0.
-double scaledAtan(double s, double d) { return d > 0.0 ? d * std::atan2(s, d) : 0.0; }
+double scaledAtan(double s, double d)
+{
+    return d > 0.0 ? d * std::atan2(s, d) : 0.0;
+}
 
-double logSafe(double x) { return x > 0.0 ? std::log(x) : 0.0; }
+double logSafe(double x)
+{
+    return x > 0.0 ? std::log(x) : 0.0;
+}
 
 /// Second antiderivative in s of ln sqrt(s^2 + d^2).
 double logKernelTwice(double s, double d)
@@ -24,7 +30,10 @@ double logKernelTwice(double s, double d)
 }
 
 /// First antiderivative in s of ln sqrt(s^2 + d^2).
-double logKernelOnce(double s, double d) { return 0.5 * s * logSafe(s * s + d * d) - s + scaledAtan(s, d); }
+double logKernelOnce(double s, double d)
+{
+    return 0.5 * s * logSafe(s * s + d * d) - s + scaledAtan(s, d);
+}
 
 struct Edge
 {
@@ -55,13 +64,15 @@ double alongEdge(const glm::dvec3& point, const Edge& line)
 }
 
 constexpr u32 kPoints = 8;
-constexpr std::array<double, kPoints> kNode{0.01985507175123188, 0.10166676129318664, 0.23723379504183550, 0.40828267875217510,
-                                            0.59171732124782490, 0.76276620495816450, 0.89833323870681336, 0.98014492824876812};
-constexpr std::array<double, kPoints> kWeight{0.05061426814518813, 0.11119051722668724, 0.15685332293894364, 0.18134189168918100,
-                                              0.18134189168918100, 0.15685332293894364, 0.11119051722668724, 0.05061426814518813};
+constexpr std::array<double, kPoints> kNode{0.01985507175123188, 0.10166676129318664, 0.23723379504183550,
+                                            0.40828267875217510, 0.59171732124782490, 0.76276620495816450,
+                                            0.89833323870681336, 0.98014492824876812};
+constexpr std::array<double, kPoints> kWeight{0.05061426814518813, 0.11119051722668724, 0.15685332293894364,
+                                              0.18134189168918100, 0.18134189168918100, 0.15685332293894364,
+                                              0.11119051722668724, 0.05061426814518813};
 
-/// Outer Gauss points from parameter t0 to t1 of `outer`, crowded towards t0 with the cube of the parameter when asked: the
-/// integrand behaves there like t ln t.
+/// Outer Gauss points from parameter t0 to t1 of `outer`, crowded towards t0 with the cube of the parameter when asked:
+/// the integrand behaves there like t ln t.
 double outerIntegral(const Edge& outer, const Edge& inner, double t0, double t1, bool graded)
 {
     double sum = 0.0;
@@ -100,8 +111,8 @@ double edgePair(const Edge& p, const Edge& q, double cosine)
         const glm::dvec3 r = q.from - p.from;
         const double q0 = glm::dot(r, p.direction), q1 = q0 + (cosine > 0.0 ? q.length : -q.length);
         const double d = glm::length(glm::cross(r, p.direction));
-        const double sum = logKernelTwice(p.length - q0, d) - logKernelTwice(-q0, d) - logKernelTwice(p.length - q1, d) +
-                           logKernelTwice(-q1, d);
+        const double sum = logKernelTwice(p.length - q0, d) - logKernelTwice(-q0, d) -
+                           logKernelTwice(p.length - q1, d) + logKernelTwice(-q1, d);
         return cosine > 0.0 ? sum : -sum;
     }
     const Edge &outer = p.length < q.length ? p : q, &inner = p.length < q.length ? q : p;

@@ -13,9 +13,9 @@ struct Contour
     std::vector<u32> ringEnd; ///< one past the last corner of each ring
 };
 
-/// The part of `shape` that lies before the plane of `viewer`, relative to `origin`; false if there is none. Rings are cut one
-/// by one: where a concave ring falls apart, its pieces stay joined by edges that are walked twice and cancel in every
-/// contour integral.
+/// The part of `shape` that lies before the plane of `viewer`, relative to `origin`; false if there is none. Rings are
+/// cut one by one: where a concave ring falls apart, its pieces stay joined by edges that are walked twice and cancel
+/// in every contour integral.
 bool cutToFront(const PlanarShape& shape, const PlanarShape& viewer, const glm::dvec3& origin, Contour& out);
 
 /// Smallest distance between the axis-parallel boxes of two contours, m; a lower bound of their distance.

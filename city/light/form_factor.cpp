@@ -43,7 +43,8 @@ double ringFactor(const glm::dvec3& point, const glm::dvec3& normal, std::span<c
 {
     const size_t n = ring.size();
     double sum = 0.0;
-    // Walks the ring and cuts each edge at the horizon; the points where it leaves and comes back are joined in the horizon.
+    // Walks the ring and cuts each edge at the horizon; the points where it leaves and comes back are joined in the
+    // horizon.
     glm::dvec3 a = ring[n - 1] - point;
     double ha = glm::dot(normal, a);
     glm::dvec3 exit(0.0), firstEntry(0.0);
@@ -105,8 +106,9 @@ constexpr GaussRule kGauss6{6,
                             {0.08566224618958517, 0.18038078652406930, 0.23395696728634552, 0.23395696728634552,
                              0.18038078652406930, 0.08566224618958517}};
 
-/// Integral over the smaller polygon of the point factor to the larger, m2. Every ring is a signed sum of quads and triangles
-/// (a fan), so holes and concave corners need no cutting: the factor is smooth all over the hull at this distance.
+/// Integral over the smaller polygon of the point factor to the larger, m2. Every ring is a signed sum of quads and
+/// triangles (a fan), so holes and concave corners need no cutting: the factor is smooth all over the hull at this
+/// distance.
 double integrateOverSmaller(const Contour& small, const glm::dvec3& normal, const Contour& large, const GaussRule& rule)
 {
     double sum = 0.0;
@@ -151,7 +153,8 @@ PlanarShape planarShape(std::span<const Ring3> rings)
     }
     shape.centroid = shape.area > 0.0 ? origin + moment / shape.area : origin;
     for (const Ring3& ring : rings)
-        for (const glm::dvec3& corner : ring) shape.radius = std::max(shape.radius, glm::distance(corner, shape.centroid));
+        for (const glm::dvec3& corner : ring)
+            shape.radius = std::max(shape.radius, glm::distance(corner, shape.centroid));
     return shape;
 }
 
@@ -167,8 +170,9 @@ double exchange(const PlanarShape& a, const PlanarShape& b)
 {
     if (a.area <= 0.0 || b.area <= 0.0) return 0.0;
     // The smaller one goes first whatever the order of the arguments, so that the result is symmetric to the last bit.
-    const bool swap = b.area < a.area || (b.area == a.area && std::lexicographical_compare(
-                                                                  &b.centroid.x, &b.centroid.x + 3, &a.centroid.x, &a.centroid.x + 3));
+    const bool swap =
+        b.area < a.area || (b.area == a.area && std::lexicographical_compare(&b.centroid.x, &b.centroid.x + 3,
+                                                                             &a.centroid.x, &a.centroid.x + 3));
     const PlanarShape &small = swap ? b : a, &large = swap ? a : b;
     thread_local Contour s, l;
     const glm::dvec3 origin = small.centroid; // Pair-relative: world coordinates leave the sums here.

@@ -6,8 +6,8 @@
 
 namespace helio {
 
-/// A planar polygon that exchanges light. Rings as in NodeTree: outer rings counter-clockwise seen from the lit side, holes
-/// clockwise; convex or not.
+/// A planar polygon that exchanges light. Rings as in NodeTree: outer rings counter-clockwise seen from the lit side,
+/// holes clockwise; convex or not.
 struct PlanarShape
 {
     std::span<const Ring3> rings;
@@ -20,16 +20,17 @@ struct PlanarShape
 /// The shape of a polygon's rings; area and normal by Newell's vector area.
 PlanarShape planarShape(std::span<const Ring3> rings);
 
-/// Form factor from a surface element to a polygon: the fraction of what a diffuse element at `point` (m) with unit `normal`
-/// sends that meets the lit side of the polygon, 0..1. The polygon is clipped to the element's horizon; from behind it is 0.
-/// Lambert's contour formula with atan2 (Baum, Rushmeier, Winget 1989, eq. 4).
+/// Form factor from a surface element to a polygon: the fraction of what a diffuse element at `point` (m) with unit
+/// `normal` sends that meets the lit side of the polygon, 0..1. The polygon is clipped to the element's horizon; from
+/// behind it is 0. Lambert's contour formula with atan2 (Baum, Rushmeier, Winget 1989, eq. 4).
 double pointFactor(const glm::dvec3& point, const glm::dvec3& normal, std::span<const Ring3> rings);
 
-/// The unoccluded exchange of two polygons, A_a F_ab = A_b F_ba, m2, never negative. Symmetric. Each polygon counts only with
-/// what lies before the other's plane. Near pairs: double contour integral of ln r (Sparrow 1963; parallel edges in closed
-/// form, else the inner integral in closed form and the outer by Gauss points graded towards the nearest approach); pairs
-/// farther apart than the smaller one's size: Gauss points over the smaller, pointFactor to the larger.
-/// Relative error below 1e-5 where F > 1e-4, absolute error of F of the smaller polygon below 1e-8 elsewhere.
+/// The unoccluded exchange of two polygons, A_a F_ab = A_b F_ba, m2, never negative. Symmetric. Each polygon counts
+/// only with what lies before the other's plane. Near pairs: double contour integral of ln r (Sparrow 1963; parallel
+/// edges in closed form, else the inner integral in closed form and the outer by Gauss points graded towards the
+/// nearest approach); pairs farther apart than the smaller one's size: Gauss points over the smaller, pointFactor to
+/// the larger. Relative error below 1e-5 where F > 1e-4, absolute error of F of the smaller polygon below 1e-8
+/// elsewhere.
 double exchange(const PlanarShape& a, const PlanarShape& b);
 
 } // namespace helio

@@ -7,7 +7,8 @@
 
 namespace helio {
 
-/// Links in rows by receiver (CSR over all nodes, patches and inner nodes alike): irradiance_i += factor * radiosity_column.
+/// Links in rows by receiver (CSR over all nodes, patches and inner nodes alike): irradiance_i += factor *
+/// radiosity_column.
 struct LinkTable
 {
     std::vector<u32> rowBegin; ///< nodeCount + 1

@@ -14,15 +14,18 @@ namespace helio {
 namespace {
 
 // Shares of the worst case that turned out to be typical (scenes S and M of the reference set).
-constexpr double kWholeLinkError = 0.3;  // of the power of a link: its error if nothing is known about its inside
-constexpr double kInsidePartError = 0.1; // of a part's variance: what the parts do not resolve
-constexpr double kVisibilityError = 0.1; // of the variance that few rays leave
-constexpr double kSurelyTooCoarse = 30.0;  // tolerances: power x (size / distance)^2 that no link was ever accepted with
-constexpr double kFarDistance = 1.5;       // in sums of radii: from here on the factor varies little over both nodes
-constexpr double kNearFactor = 0.1;        // form factor from which on rays are aimed by the cosine
+constexpr double kWholeLinkError = 0.3;   // of the power of a link: its error if nothing is known about its inside
+constexpr double kInsidePartError = 0.1;  // of a part's variance: what the parts do not resolve
+constexpr double kVisibilityError = 0.1;  // of the variance that few rays leave
+constexpr double kSurelyTooCoarse = 30.0; // tolerances: power x (size / distance)^2 that no link was ever accepted with
+constexpr double kFarDistance = 1.5;      // in sums of radii: from here on the factor varies little over both nodes
+constexpr double kNearFactor = 0.1;       // form factor from which on rays are aimed by the cosine
 constexpr u32 kMaxRaysPerCell = 64;
 
-double squaredRatio(double a, double b) { return b > 0.0 ? std::min(1.0, a * a / (b * b)) : 1.0; }
+double squaredRatio(double a, double b)
+{
+    return b > 0.0 ? std::min(1.0, a * a / (b * b)) : 1.0;
+}
 
 /// Even-odd test in the coordinate plane that the polygon's plane is nearest to.
 bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
@@ -33,7 +36,9 @@ bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::
     for (const Ring3& ring : rings) {
         for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
             const glm::dvec3 &a = ring[i], &b = ring[j];
-            if ((a[v] > point[v]) != (b[v] > point[v]) && point[u] < a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u])) inside = !inside;
+            if ((a[v] > point[v]) != (b[v] > point[v]) &&
+                point[u] < a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]))
+                inside = !inside;
         }
     }
     return inside;
@@ -45,7 +50,8 @@ LinkRefiner::Parts LinkRefiner::partsOf(u32 node) const
 {
     Parts parts{{node}, 1};
     while (true) {
-        // The largest part that can be opened; gaps count as size, for a full outline is what the factors are exact for.
+        // The largest part that can be opened; gaps count as size, for a full outline is what the factors are exact
+        // for.
         u32 best = kNoIndex;
         double bestArea = 0.0;
         for (u32 i = 0; i < parts.count; ++i) {
@@ -70,7 +76,8 @@ glm::dvec3 LinkRefiner::pointIn(u32 node, double u, double v) const
         double rest = u * tree_.nodes[node].area;
         const std::span<const u32> children = tree_.childrenOf(node);
         u32 c = 0;
-        while (c + 1 < children.size() && rest >= tree_.nodes[children[c]].area) rest -= tree_.nodes[children[c++]].area;
+        while (c + 1 < children.size() && rest >= tree_.nodes[children[c]].area)
+            rest -= tree_.nodes[children[c++]].area;
         node = children[c];
         u = std::min(rest / tree_.nodes[node].area, 0x1.fffffffffffffp-1);
     }
@@ -101,15 +108,17 @@ void LinkRefiner::shoot(Cell& cell, u32 a, u32 b, u32 rays) const
 
 void LinkRefiner::shootNear(Cell& cell, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const
 {
-    // Points that are uniform on both would seldom be near each other, yet near points exchange most: directions by the cosine
-    // from the smaller one find them. All that reach the larger one's outline count alike.
-    const glm::dvec3 &normal = tree_.nodes[small].normal, &other = tree_.nodes[large].normal, &onPlane = tree_.nodes[large].centroid;
+    // Points that are uniform on both would seldom be near each other, yet near points exchange most: directions by the
+    // cosine from the smaller one find them. All that reach the larger one's outline count alike.
+    const glm::dvec3 &normal = tree_.nodes[small].normal, &other = tree_.nodes[large].normal,
+                     &onPlane = tree_.nodes[large].centroid;
     const PlaneFrame frame = planeFrame(normal);
     const u32 end = cell.rays + rays;
     for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && cell.rays < end; --tries, ++cell.next) {
         const std::array<double, 4> x = shiftedSobol4(cell.next, shift);
         const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-        const glm::dvec3 direction = r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
+        const glm::dvec3 direction =
+            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
         const double facing = -glm::dot(other, direction);
         if (facing <= 0.0) continue;
         const glm::dvec3 p = pointIn(small, x[2], x[3]);
@@ -135,10 +144,12 @@ void LinkRefiner::link(u32 a, u32 b, double exchange)
     if (exchange > 0.0) pairs_.push_back({a, b, float(exchange)});
 }
 
-void LinkRefiner::addErrors(const Parts& mine, const Parts& theirs, u32 receiver, u32 sender, bool mineIsA, double meanOpen,
-                            double& senderError, double& receiverError) const
+void LinkRefiner::addErrors(const Parts& mine, const Parts& theirs, u32 receiver, u32 sender, bool mineIsA,
+                            double meanOpen, double& senderError, double& receiverError) const
 {
-    const auto cellOf = [&](u32 i, u32 j) -> const Cell& { return cells_[mineIsA ? i * kMaxParts + j : j * kMaxParts + i]; };
+    const auto cellOf = [&](u32 i, u32 j) -> const Cell& {
+        return cells_[mineIsA ? i * kMaxParts + j : j * kMaxParts + i];
+    };
     // Few rays a cell: its visibility is drawn towards the mean by one ray's worth.
     const auto seen = [&](const Cell& cell) {
         const double own = cell.weight > 0.0 ? cell.open / cell.weight : meanOpen;
@@ -159,9 +170,11 @@ void LinkRefiner::addErrors(const Parts& mine, const Parts& theirs, u32 receiver
             received[i] += g[j];
             const double inside = kInsidePartError * double(training_.variance[theirs.node[j]]);
             if (inside > 0.0) {
-                const double distance = glm::distance(tree_.nodes[mine.node[i]].centroid, tree_.nodes[theirs.node[j]].centroid);
+                const double distance =
+                    glm::distance(tree_.nodes[mine.node[i]].centroid, tree_.nodes[theirs.node[j]].centroid);
                 const double partial = 0.25 * 4.0 * open * (1.0 - open);
-                senderError += weight * inside * g[j] * g[j] / area * (squaredRatio(transfer_.radius(theirs.node[j]), distance) + partial);
+                senderError += weight * inside * g[j] * g[j] / area *
+                               (squaredRatio(transfer_.radius(theirs.node[j]), distance) + partial);
             }
         }
         total += received[i];
@@ -191,8 +204,10 @@ LinkRefiner::Estimate LinkRefiner::estimate(const Parts& a, const Parts& b, u32 
             const Cell& cell = cells_[i * kMaxParts + j];
             transfer += cell.transfer;
             rays += cell.rays;
-            if (cell.weight > 0.0) seen += cell.transfer * cell.open / cell.weight;
-            else unseen += cell.transfer;
+            if (cell.weight > 0.0)
+                seen += cell.transfer * cell.open / cell.weight;
+            else
+                unseen += cell.transfer;
         }
     }
     if (transfer <= 0.0) return e;
@@ -210,7 +225,8 @@ bool LinkRefiner::isSurelyTooCoarse(u32 a, u32 b, double transfer) const
 {
     const double ra = tree_.isLeaf(a) ? 0.0 : transfer_.radius(a), rb = tree_.isLeaf(b) ? 0.0 : transfer_.radius(b);
     const double distance = glm::distance(tree_.nodes[a].centroid, tree_.nodes[b].centroid);
-    if (power(a, b, transfer) * squaredRatio(std::max(ra, rb), distance) <= kSurelyTooCoarse * limits_.tolerance) return false;
+    if (power(a, b, transfer) * squaredRatio(std::max(ra, rb), distance) <= kSurelyTooCoarse * limits_.tolerance)
+        return false;
     // Only a pair that sees something: what is blocked is better judged as a whole.
     Cell cell;
     cell.transfer = transfer;
@@ -259,7 +275,8 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB)
     const auto shootAll = [&](u32 rays) {
         for (u32 i = 0; i < a.count; ++i)
             for (u32 j = 0; j < b.count; ++j)
-                if (Cell& cell = cells_[i * kMaxParts + j]; cell.transfer > 0.0) shoot(cell, a.node[i], b.node[j], rays);
+                if (Cell& cell = cells_[i * kMaxParts + j]; cell.transfer > 0.0)
+                    shoot(cell, a.node[i], b.node[j], rays);
     };
     for (u32 i = 0; i < a.count; ++i) {
         for (u32 j = 0; j < b.count; ++j) {
@@ -282,7 +299,8 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB)
     }
     // Halving the larger one helps the later levels more than the errors of this one say.
     bool splitA = e.errorA * transfer_.radius(nodeA) > e.errorB * transfer_.radius(nodeB);
-    if (kVisibilityError * e.visibilityError > e.errorA + e.errorB) splitA = tree_.nodes[nodeA].area >= tree_.nodes[nodeB].area;
+    if (kVisibilityError * e.visibilityError > e.errorA + e.errorB)
+        splitA = tree_.nodes[nodeA].area >= tree_.nodes[nodeB].area;
     if (tree_.isLeaf(nodeA)) splitA = false;
     if (tree_.isLeaf(nodeB)) splitA = true;
     split(nodeA, nodeB, splitA);

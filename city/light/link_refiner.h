@@ -20,7 +20,8 @@ public:
 
     LinkRefiner(const NodeTree& tree, const Visibility& visibility, const Training& training, const Transfer& transfer,
                 std::span<const double> weight, const Limits& limits)
-        : tree_(tree), visibility_(visibility), training_(training), transfer_(transfer), weight_(weight), limits_(limits)
+        : tree_(tree), visibility_(visibility), training_(training), transfer_(transfer), weight_(weight),
+          limits_(limits)
     {
     }
 
@@ -43,16 +44,16 @@ private:
     /// Exchange and visibility between one part of a and one of b.
     struct Cell
     {
-        double transfer = 0.0;                 // m2, without occlusion
-        double open = 0.0, weight = 0.0;       // rays so far, weighted with their kernel
-        u32 rays = 0;                          // that had a weight
-        u32 next = 0;                          // of the sample sequence
+        double transfer = 0.0;           // m2, without occlusion
+        double open = 0.0, weight = 0.0; // rays so far, weighted with their kernel
+        u32 rays = 0;                    // that had a weight
+        u32 next = 0;                    // of the sample sequence
     };
 
     struct Estimate
     {
-        double exchange = 0.0;      // m2, with visibility
-        double errorA = 0.0;        // weighted squared error that splitting a would remove
+        double exchange = 0.0; // m2, with visibility
+        double errorA = 0.0;   // weighted squared error that splitting a would remove
         double errorB = 0.0;
         double visibilityError = 0.0; // the same for the number of rays
     };

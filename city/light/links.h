@@ -17,6 +17,13 @@ struct NodePair
     float exchange = 0.0f; ///< A_a F_ab V, m2
 };
 
+/// Two links whose factors are estimated on their own, so that they need not agree in what they exchange.
+struct FactorPair
+{
+    u32 a = 0, b = 0;
+    float fab = 0.0f, fba = 0.0f; ///< share of what leaves a that reaches b, and the other way; 0..1
+};
+
 struct LinkOptions
 {
     double epsilon = 0.0; ///< see LightOptions::formFactorEpsilon; > 0
@@ -32,14 +39,17 @@ struct LinkBuild
     u64 evaluated = 0;           ///< node pairs looked at
 };
 
-/// The hierarchical links of this project (design.md 4.2, 4.4), over candidate pairs of planar roots. A pair is linked when
-/// the squared error that a constant link would leave, estimated from the exchanges of its parts under the training lights
-/// and summed over both directions, is at most epsilon^2 x the mean patch area; else the node with the larger share in that
-/// error, weighed with its size, is refined, or the other one if it is a leaf; two leaves are always linked.
+/// The hierarchical links of this project (city/README.md, "Decisions"), over candidate pairs of planar roots. A pair
+/// is linked when the squared error that a constant link would leave, estimated from the exchanges of its parts under
+/// the training lights and summed over both directions, is at most epsilon^2 x the mean patch area; else the node with
+/// the larger share in that error, weighed with its size, is refined, or the other one if it is a leaf; two leaves are
+/// always linked.
 LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const Training& training,
                      std::span<const std::pair<u32, u32>> rootPairs, const LinkOptions& options);
 
-/// Rows by receiver over all nodes, both directions of every pair.
+/// Rows by receiver over all nodes, both directions of every pair. Aborts above 2^31 - 2 pairs (rows are counted in 32
+/// bits).
 LinkTable linkTable(const NodeTree& tree, std::span<const NodePair> pairs, u32 jobs);
+LinkTable linkTable(const NodeTree& tree, std::span<const FactorPair> pairs, u32 jobs);
 
 } // namespace helio

@@ -26,7 +26,8 @@ double distance(const Box& a, const Box& b)
 class PaperLinker
 {
 public:
-    PaperLinker(const NodeTree& tree, const PaperOptions& options) : tree_(tree), options_(options), box_(tree.nodeCount())
+    PaperLinker(const NodeTree& tree, const PaperOptions& options)
+        : tree_(tree), options_(options), box_(tree.nodeCount())
     {
         for (u32 i = 0; i < tree.nodeCount(); ++i) {
             for (const Ring3& ring : tree.outlineOf(i)) {
@@ -38,15 +39,14 @@ public:
         }
     }
 
-    std::vector<NodePair> run()
+    std::vector<FactorPair> run()
     {
         std::vector<u32> roots;
         for (u32 i = 0; i < tree_.nodeCount(); ++i)
             if (tree_.isPlanarRoot(i)) roots.push_back(i);
         // Swept along x: only roots whose boxes come within the cut-off there meet. Boxes bound the centroids too.
-        std::sort(roots.begin(), roots.end(), [&](u32 a, u32 b) {
-            return box_[a].low.x != box_[b].low.x ? box_[a].low.x < box_[b].low.x : a < b;
-        });
+        std::sort(roots.begin(), roots.end(),
+                  [&](u32 a, u32 b) { return box_[a].low.x != box_[b].low.x ? box_[a].low.x < box_[b].low.x : a < b; });
         for (size_t i = 0; i < roots.size(); ++i) {
             for (size_t j = i + 1; j < roots.size(); ++j) {
                 if (options_.cutoff > 0.0 && box_[roots[j]].low.x > box_[roots[i]].high.x + options_.cutoff) break;
@@ -59,7 +59,8 @@ public:
 private:
     double separation(u32 a, u32 b) const
     {
-        return options_.literal ? glm::distance(tree_.nodes[a].centroid, tree_.nodes[b].centroid) : distance(box_[a], box_[b]);
+        return options_.literal ? glm::distance(tree_.nodes[a].centroid, tree_.nodes[b].centroid)
+                                : distance(box_[a], box_[b]);
     }
 
     void findLinks(u32 a, u32 b)
@@ -83,14 +84,14 @@ private:
         } else if (splitB) {
             for (const u32 child : tree_.childrenOf(b)) findLinks(a, child);
         } else if (fab > 0.0) {
-            pairs_.push_back({a, b, float(tree_.nodes[a].area * fab)});
+            pairs_.push_back({a, b, float(fab), float(fba)});
         }
     }
 
     const NodeTree& tree_;
     PaperOptions options_;
     std::vector<Box> box_;
-    std::vector<NodePair> pairs_;
+    std::vector<FactorPair> pairs_;
 };
 
 } // namespace
@@ -103,9 +104,10 @@ double discFactor(const Node& from, const Node& to)
     return to.area * a * b / d2 / (std::numbers::pi * d2 + to.area);
 }
 
-std::vector<NodePair> paperLinks(const NodeTree& tree, const PaperOptions& options)
+std::vector<FactorPair> paperLinks(const NodeTree& tree, const PaperOptions& options)
 {
-    HELIO_CHECK(options.epsilon > 0.0 && options.cutoff >= 0.0, "epsilon = ", options.epsilon, ", cutoff = ", options.cutoff);
+    HELIO_CHECK(options.epsilon > 0.0 && options.cutoff >= 0.0, "epsilon = ", options.epsilon,
+                ", cutoff = ", options.cutoff);
     return PaperLinker(tree, options).run();
 }
 

@@ -11,7 +11,10 @@
 namespace helio {
 namespace {
 
-double largest(const glm::dvec4& v) { return std::max(std::max(v.x, v.y), std::max(v.z, v.w)); }
+double largest(const glm::dvec4& v)
+{
+    return std::max(std::max(v.x, v.y), std::max(v.z, v.w));
+}
 
 /// Gathers at every node, then hands irradiance down: afterwards every leaf holds its whole indirect irradiance.
 void gather(const NodeTree& tree, const LinkTable& links, const std::vector<glm::dvec4>& radiosity, bool own,
@@ -50,12 +53,14 @@ std::vector<double> patchRowSums(const NodeTree& tree, const LinkTable& links)
     return sum;
 }
 
-Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<const glm::dvec4> sun, std::span<const glm::dvec4> sky,
-                    const SolveOptions& options)
+Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<const glm::dvec4> sun,
+                    std::span<const glm::dvec4> sky, const SolveOptions& options)
 {
     const u32 count = tree.patchCount();
-    HELIO_CHECK(sun.size() == count && sky.size() == count, count, " patches, ", sun.size(), " sun, ", sky.size(), " sky values");
-    HELIO_CHECK(links.rowBegin.size() == tree.nodeCount() + 1, links.rowBegin.size(), " rows for ", tree.nodeCount(), " nodes");
+    HELIO_CHECK(sun.size() == count && sky.size() == count, count, " patches, ", sun.size(), " sun, ", sky.size(),
+                " sky values");
+    HELIO_CHECK(links.rowBegin.size() == tree.nodeCount() + 1, links.rowBegin.size(), " rows for ", tree.nodeCount(),
+                " nodes");
     std::vector<glm::dvec4> first(count);
     for (u32 i = 0; i < count; ++i) {
         const Patch& patch = tree.patches[i];
@@ -80,7 +85,8 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
         for (u32 i = 0; i < count; ++i) {
             const Patch& patch = tree.patches[i];
             const glm::dvec4 base = options.rule == UpdateRule::NeverReset ? radiosity[i] : first[i];
-            const glm::dvec4 next = base + patch.rho * irradiance[i], change = next - radiosity[i], rise = next - first[i];
+            const glm::dvec4 next = base + patch.rho * irradiance[i], change = next - radiosity[i],
+                             rise = next - first[i];
             for (u32 c = 0; c < 4; ++c) {
                 changed += patch.area * change[c] * change[c];
                 reflected += patch.area * rise[c] * rise[c];
@@ -95,7 +101,8 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
         sweep.paperError = std::sqrt(largest(squares));
         for (u32 c = 0; c < 4; ++c) {
             const double q = contraction[c];
-            sweep.bound = std::max(sweep.bound, q < 1.0 ? largestChange[c] * q / (1.0 - q) : std::numeric_limits<double>::infinity());
+            sweep.bound = std::max(sweep.bound, q < 1.0 ? largestChange[c] * q / (1.0 - q)
+                                                        : std::numeric_limits<double>::infinity());
         }
         solution.sweeps.push_back(sweep);
         if (sweep.residual <= options.residual) break;
@@ -112,7 +119,8 @@ std::vector<double> denseFactors(const NodeTree& tree, const LinkTable& links)
     std::vector<std::vector<u32>> below(tree.nodeCount());
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         if (tree.isLeaf(i)) below[i] = {i};
-        for (const u32 child : tree.childrenOf(i)) below[i].insert(below[i].end(), below[child].begin(), below[child].end());
+        for (const u32 child : tree.childrenOf(i))
+            below[i].insert(below[i].end(), below[child].begin(), below[child].end());
     }
     std::vector<double> dense(size_t(n) * n, 0.0);
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
@@ -129,7 +137,8 @@ std::vector<double> denseFactors(const NodeTree& tree, const LinkTable& links)
 std::vector<double> solveDense(std::span<const double> factors, std::span<const double> rho, std::span<const double> b0)
 {
     const size_t n = b0.size();
-    HELIO_CHECK(factors.size() == n * n && rho.size() == n, n, " unknowns, ", factors.size(), " factors, ", rho.size(), " reflectances");
+    HELIO_CHECK(factors.size() == n * n && rho.size() == n, n, " unknowns, ", factors.size(), " factors, ", rho.size(),
+                " reflectances");
     std::vector<double> m(n * n), x(b0.begin(), b0.end());
     for (size_t i = 0; i < n; ++i)
         for (size_t j = 0; j < n; ++j) m[i * n + j] = (i == j ? 1.0 : 0.0) - rho[i] * factors[i * n + j];

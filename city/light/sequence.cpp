@@ -50,7 +50,10 @@ const std::array<std::array<u32, 4>, kTableSize> kTable = [] {
 
 } // namespace
 
-std::array<u32, 4> sobol4(u32 index) { return index < kTableSize ? kTable[index] : makePoint(index); }
+std::array<u32, 4> sobol4(u32 index)
+{
+    return index < kTableSize ? kTable[index] : makePoint(index);
+}
 
 std::array<double, 4> shiftedSobol4(u32 index, const std::array<u32, 4>& shift)
 {

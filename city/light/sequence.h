@@ -6,8 +6,8 @@
 
 namespace helio {
 
-/// Point `index` of the four-dimensional Sobol sequence (direction numbers of Joe and Kuo 2008), as 32-bit fractions. Any 2^k
-/// points from a multiple of 2^k on are well spread in every pair of dimensions used here.
+/// Point `index` of the four-dimensional Sobol sequence (direction numbers of Joe and Kuo 2008), as 32-bit fractions.
+/// Any 2^k points from a multiple of 2^k on are well spread in every pair of dimensions used here.
 std::array<u32, 4> sobol4(u32 index);
 
 /// The same point shifted by a random digital shift (an exclusive or, one hash of the seed a dimension), in [0, 1).

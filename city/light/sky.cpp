@@ -35,7 +35,10 @@ std::vector<u32> planarRoots(const NodeTree& tree)
     return root;
 }
 
-u32 autoRaysPerPatch(u32 patchCount) { return std::bit_floor(std::clamp(64'000'000u / std::max(1u, patchCount), 128u, 1024u)); }
+u32 autoRaysPerPatch(u32 patchCount)
+{
+    return std::bit_floor(std::clamp(64'000'000u / std::max(1u, patchCount), 128u, 1024u));
+}
 
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
                 const std::function<void(double)>& progress)
@@ -62,7 +65,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                 const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
                 const glm::dvec3 direction =
                     r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * frame.normal;
-                const RayHit hit = visibility.trace(visibility.pointOnPatch(patch, x[2], x[3]), frame.normal, direction);
+                const RayHit hit =
+                    visibility.trace(visibility.pointOnPatch(patch, x[2], x[3]), frame.normal, direction);
                 if (hit.patch == kNoIndex) {
                     ++(direction.z > 0.0 ? sky : below);
                 } else if (!hit.front) {

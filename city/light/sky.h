@@ -11,22 +11,25 @@ namespace helio {
 /// Where the cosine-distributed rays of each patch end, and what follows from that.
 struct SkyScan
 {
-    std::vector<float> sky;     ///< per patch: fraction that leaves above the horizon = sky view factor of a uniform sky
-    std::vector<float> below;   ///< per patch: fraction that leaves below the horizon
-    std::vector<float> rowSum;  ///< per patch: fraction that meets a lit side
-    std::vector<float> back;    ///< per patch: fraction that meets a back side: black
-    /// Pairs (a < b) of planar roots of which at least one patch's ray met the other, ascending: the candidates for links.
+    std::vector<float> sky;    ///< per patch: fraction that leaves above the horizon = sky view factor of a uniform sky
+    std::vector<float> below;  ///< per patch: fraction that leaves below the horizon
+    std::vector<float> rowSum; ///< per patch: fraction that meets a lit side
+    std::vector<float> back;   ///< per patch: fraction that meets a back side: black
+    /// Pairs (a < b) of planar roots of which at least one patch's ray met the other, ascending: the candidates for
+    /// links.
     std::vector<std::pair<u32, u32>> rootPairs;
 };
 
 /// Planar root above each node (itself for a root); kNoIndex for clusters.
 std::vector<u32> planarRoots(const NodeTree& tree);
 
-/// Number of rays that scanSky takes for 0: 64 million over the number of patches as a power of two, within [128, 1024].
+/// Number of rays that scanSky takes for 0: 64 million over the number of patches as a power of two, within [128,
+/// 1024].
 u32 autoRaysPerPatch(u32 patchCount);
 
-/// Traces `rays` per patch, stratified together over its area and over the hemisphere (Sobol points, shifted by a hash of the
-/// seed and the patch id). `progress` gets the fraction done and may be empty; it is called from one thread at a time.
+/// Traces `rays` per patch, stratified together over its area and over the hemisphere (Sobol points, shifted by a hash
+/// of the seed and the patch id). `progress` gets the fraction done and may be empty; it is called from one thread at a
+/// time.
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
                 const std::function<void(double)>& progress);
 

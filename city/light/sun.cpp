@@ -11,7 +11,8 @@
 
 namespace helio {
 
-std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, const glm::dvec3& toSun, u32 samples, u32 jobs)
+std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, const glm::dvec3& toSun, u32 samples,
+                           u32 jobs)
 {
     HELIO_CHECK(samples > 0, "samples = ", samples);
     std::vector<double> irradiance(tree.patchCount(), 0.0);

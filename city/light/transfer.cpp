@@ -11,7 +11,7 @@
 namespace helio {
 namespace {
 
-constexpr double kPointDistance = 30.0; // in sums of radii: one point each is right to 1e-3
+constexpr double kPointDistance = 30.0;    // in sums of radii: one point each is right to 1e-3
 constexpr double kFourPointDistance = 4.0; // four points each are right to 3e-4
 
 /// Integral of x x^T over a node's own rings, x relative to `centre`, m4.
@@ -22,8 +22,9 @@ glm::dmat3 secondMoment(std::span<const Ring3> rings, const glm::dvec3& centre, 
         for (size_t i = 1; i + 1 < ring.size(); ++i) {
             const glm::dvec3 a = ring[0] - centre, b = ring[i] - centre, c = ring[i + 1] - centre, s = a + b + c;
             const double twice = glm::dot(normal, glm::cross(b - a, c - a));
-            sum += twice / 24.0 *
-                   (glm::outerProduct(a, a) + glm::outerProduct(b, b) + glm::outerProduct(c, c) + glm::outerProduct(s, s));
+            sum +=
+                twice / 24.0 *
+                (glm::outerProduct(a, a) + glm::outerProduct(b, b) + glm::outerProduct(c, c) + glm::outerProduct(s, s));
         }
     }
     return sum;
@@ -50,9 +51,11 @@ Transfer::Transfer(const NodeTree& tree) : tree_(tree), extent_(tree.nodeCount()
             }
         }
         const PlaneFrame frame = planeFrame(node.normal);
-        const double uu = glm::dot(frame.u, moment[i] * frame.u) / node.area, vv = glm::dot(frame.v, moment[i] * frame.v) / node.area,
+        const double uu = glm::dot(frame.u, moment[i] * frame.u) / node.area,
+                     vv = glm::dot(frame.v, moment[i] * frame.v) / node.area,
                      uv = glm::dot(frame.u, moment[i] * frame.v) / node.area;
-        const double angle = 0.5 * std::atan2(2.0 * uv, uu - vv), half = std::hypot(0.5 * (uu - vv), uv), mean = 0.5 * (uu + vv);
+        const double angle = 0.5 * std::atan2(2.0 * uv, uu - vv), half = std::hypot(0.5 * (uu - vv), uv),
+                     mean = 0.5 * (uu + vv);
         const glm::dvec3 e1 = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
         extent_[i].axis[0] = std::sqrt(std::max(0.0, mean + half)) * e1;
         extent_[i].axis[1] = std::sqrt(std::max(0.0, mean - half)) * glm::cross(node.normal, e1);
@@ -77,13 +80,15 @@ double Transfer::between(u32 a, u32 b) const
     const double distance = glm::length(d), size = ra + rb;
     // Half heights of rectangles with these moments. What crosses the other's plane by less is at grazing angles.
     const auto halfHeight = [](const Extent& e, const glm::dvec3& n) {
-        return std::numbers::sqrt3 * (std::abs(glm::dot(glm::dvec3(e.axis[0]), n)) + std::abs(glm::dot(glm::dvec3(e.axis[1]), n)));
+        return std::numbers::sqrt3 *
+               (std::abs(glm::dot(glm::dvec3(e.axis[0]), n)) + std::abs(glm::dot(glm::dvec3(e.axis[1]), n)));
     };
     const bool crosses = hb < 0.99 * halfHeight(eb, na.normal) || ha < 0.99 * halfHeight(ea, nb.normal);
     if (crosses || distance < kFourPointDistance * size)
         return exchange(shapeOf(a), shapeOf(b)) * na.coverage * nb.coverage;
     const double scale = na.area * nb.area / std::numbers::pi;
-    if (distance > kPointDistance * size) return scale * std::max(0.0, ha) * std::max(0.0, hb) / (distance * distance * distance * distance);
+    if (distance > kPointDistance * size)
+        return scale * std::max(0.0, ha) * std::max(0.0, hb) / (distance * distance * distance * distance);
     double sum = 0.0;
     const glm::dvec3 aPlus(ea.axis[0] + ea.axis[1]), aMinus(ea.axis[0] - ea.axis[1]);
     const glm::dvec3 bPlus(eb.axis[0] + eb.axis[1]), bMinus(eb.axis[0] - eb.axis[1]);

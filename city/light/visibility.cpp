@@ -19,11 +19,11 @@ struct Visibility::Scene
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     glm::dvec3 origin{0.0};
-    double lift = 0.0;                 // m, how far rays start off a surface
-    std::vector<glm::vec3> corners;    // three a triangle, shared with Embree (padded by one)
-    std::vector<u32> triangleBegin;    // per patch, + 1
+    double lift = 0.0;              // m, how far rays start off a surface
+    std::vector<glm::vec3> corners; // three a triangle, shared with Embree (padded by one)
+    std::vector<u32> triangleBegin; // per patch, + 1
     std::vector<u32> patchOfTriangle;
-    std::vector<float> areaUpTo;       // share of the patch's area up to and with each triangle
+    std::vector<float> areaUpTo; // share of the patch's area up to and with each triangle
 };
 
 namespace {
@@ -34,11 +34,16 @@ std::vector<Polygon3> polygonsOf(const NodeTree& tree, u32 patch)
     std::vector<Polygon3> polygons;
     const Node& node = tree.nodes[patch];
     for (u32 r = node.ringBegin; r < node.ringBegin + node.ringCount; ++r) {
-        if (!tree.ringIsHole[r] || polygons.empty()) polygons.push_back({tree.rings[r], {}});
-        else polygons.back().holes.push_back(tree.rings[r]);
+        if (!tree.ringIsHole[r] || polygons.empty())
+            polygons.push_back({tree.rings[r], {}});
+        else
+            polygons.back().holes.push_back(tree.rings[r]);
     }
     return polygons;
 }
+
+constexpr const char* kMemoryHint =
+    " triangles (about 200 bytes each); bake a smaller area or on a machine with more memory";
 
 RTCRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, double end)
 {
@@ -86,9 +91,14 @@ Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
                 for (const u32 corner : t) s.corners.emplace_back(corners[corner] - s.origin);
             }
         }
-        for (size_t t = first; t < s.areaUpTo.size(); ++t) s.areaUpTo[t] = total > 0.0 ? float(double(s.areaUpTo[t]) / total) : 1.0f;
+        for (size_t t = first; t < s.areaUpTo.size(); ++t)
+            s.areaUpTo[t] = total > 0.0 ? float(double(s.areaUpTo[t]) / total) : 1.0f;
         s.triangleBegin.push_back(u32(s.patchOfTriangle.size()));
     }
+    const size_t triangles = s.patchOfTriangle.size();
+    constexpr size_t kMostTriangles = std::numeric_limits<u32>::max() / 3;
+    HELIO_CHECK(triangles <= kMostTriangles, "the patches make ", triangles, " triangles, the limit of the rays is ",
+                kMostTriangles, "; bake a smaller area");
     s.corners.emplace_back(0.0f); // Embree reads 16 bytes a vertex.
 
     // One thread: the order of triangles inside the structure, hence ties between coincident ones, must not vary.
@@ -97,19 +107,20 @@ Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
     s.scene = rtcNewScene(s.device);
     rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.corners.data(), 0, sizeof(glm::vec3),
-                               s.corners.size() - 1);
-    auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(u32),
-                                                              std::max<size_t>(1, s.patchOfTriangle.size())));
-    HELIO_CHECK(indices != nullptr, "Embree has no memory for ", s.patchOfTriangle.size(), " triangles");
-    for (u32 i = 0; i < 3 * s.patchOfTriangle.size(); ++i) indices[i] = i;
-    if (s.patchOfTriangle.empty()) indices[0] = indices[1] = indices[2] = 0;
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.corners.data(), 0,
+                               sizeof(glm::vec3), s.corners.size() - 1);
+    auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                              3 * sizeof(u32), std::max<size_t>(1, triangles)));
+    HELIO_CHECK(indices != nullptr, "Embree has no memory for ", triangles, kMemoryHint);
+    for (u32 i = 0; i < 3 * triangles; ++i) indices[i] = i;
+    if (triangles == 0) indices[0] = indices[1] = indices[2] = 0;
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(s.scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(s.scene);
     const RTCError error = rtcGetDeviceError(s.device);
-    HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", s.patchOfTriangle.size(), " triangles");
+    HELIO_CHECK(error != RTC_ERROR_OUT_OF_MEMORY, "Embree has no memory for ", triangles, kMemoryHint);
+    HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", triangles, " triangles");
 }
 
 Visibility::~Visibility()
@@ -118,7 +129,10 @@ Visibility::~Visibility()
     rtcReleaseDevice(scene_->device);
 }
 
-u32 Visibility::triangleCount() const { return u32(scene_->patchOfTriangle.size()); }
+u32 Visibility::triangleCount() const
+{
+    return u32(scene_->patchOfTriangle.size());
+}
 
 glm::dvec3 Visibility::pointOnPatch(u32 patch, double u, double v) const
 {
@@ -135,7 +149,8 @@ glm::dvec3 Visibility::pointOnPatch(u32 patch, double u, double v) const
     return s.origin + (1.0 - r) * a + r * (1.0 - v) * b + r * v * c;
 }
 
-bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal, const glm::dvec3& to, const glm::dvec3& toNormal) const
+bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal, const glm::dvec3& to,
+                           const glm::dvec3& toNormal) const
 {
     const glm::dvec3 a = from - scene_->origin + scene_->lift * fromNormal;
     const glm::dvec3 b = to - scene_->origin + scene_->lift * toNormal;
@@ -148,7 +163,8 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal,
 
 bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const
 {
-    RTCRay ray = makeRay(from - scene_->origin + scene_->lift * normal, direction, double(std::numeric_limits<float>::infinity()));
+    RTCRay ray = makeRay(from - scene_->origin + scene_->lift * normal, direction,
+                         double(std::numeric_limits<float>::infinity()));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(scene_->scene, &context, &ray);
@@ -158,14 +174,16 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& normal, con
 RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const
 {
     RTCRayHit hit{};
-    hit.ray = makeRay(from - scene_->origin + scene_->lift * normal, direction, double(std::numeric_limits<float>::infinity()));
+    hit.ray = makeRay(from - scene_->origin + scene_->lift * normal, direction,
+                      double(std::numeric_limits<float>::infinity()));
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_->scene, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    const double along = double(hit.hit.Ng_x) * direction.x + double(hit.hit.Ng_y) * direction.y + double(hit.hit.Ng_z) * direction.z;
+    const double along =
+        double(hit.hit.Ng_x) * direction.x + double(hit.hit.Ng_y) * direction.y + double(hit.hit.Ng_z) * direction.z;
     return {scene_->patchOfTriangle[hit.hit.primID], along < 0.0};
 }
 

@@ -15,9 +15,9 @@ struct RayHit
     bool front = false;   ///< the lit side
 };
 
-/// Rays against the polygons of all patches. Patches block from both sides; assets do not block, the patch in whose place
-/// they are drawn does. All positions are in the tree's frame, in double; inside, everything is float relative to the centre
-/// of the scene. Safe to use from several threads.
+/// Rays against the polygons of all patches. Patches block from both sides; assets do not block, the patch in whose
+/// place they are drawn does. All positions are in the tree's frame, in double; inside, everything is float relative to
+/// the centre of the scene. Safe to use from several threads.
 class Visibility
 {
 public:
@@ -30,7 +30,8 @@ public:
     /// A point of the patch, uniform over its area for u, v uniform in [0, 1); neighbouring u stay near each other.
     glm::dvec3 pointOnPatch(u32 patch, double u, double v) const;
     /// True if something lies between two surface points. Each end is lifted off its surface along its unit normal.
-    bool isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal, const glm::dvec3& to, const glm::dvec3& toNormal) const;
+    bool isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal, const glm::dvec3& to,
+                   const glm::dvec3& toNormal) const;
     /// True if something lies in a unit direction from a surface point.
     bool isBlocked(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const;
     /// The first patch in a unit direction from a surface point.

@@ -10,14 +10,13 @@
 #include "city/base/check.h"
 #include "city/model/convex_hull.h"
 #include "city/model/guillotine.h"
+#include "city/model/plane_groups.h"
 
 namespace helio {
 namespace {
 
-constexpr double kMinArea = 1e-8;      // m2: less is no surface
-constexpr double kSameNormal = 1e-5;   // 1 - cos of the largest angle between coplanar normals (0.26 deg)
-constexpr double kSamePlane = 2e-3;    // m: largest distance between coplanar planes
-constexpr double kTiling = 1e-5;       // relative area defect of a tiling node
+constexpr double kMinArea = 1e-8; // m2: less is no surface
+constexpr double kTiling = 1e-5;  // relative area defect of a tiling node
 
 /// A node before it has its final number.
 struct RawNode
@@ -25,7 +24,7 @@ struct RawNode
     Node node;
     std::vector<u32> children; // raw indices
     u32 patch = kNoIndex;
-    bool sealed = false;       // the face of a solid: its plane is not merged with a neighbour's
+    bool sealed = false; // the face of a solid: its plane is not merged with a neighbour's
 };
 
 class Builder
@@ -33,7 +32,8 @@ class Builder
 public:
     Builder(const ShapeTree& shapes, std::span<const AssetSummary> assets) : shapes_(shapes), assets_(assets)
     {
-        HELIO_CHECK(assets.size() == shapes.assets.size(), assets.size(), " asset summaries, ", shapes.assets.size(), " assets");
+        HELIO_CHECK(assets.size() == shapes.assets.size(), assets.size(), " asset summaries, ", shapes.assets.size(),
+                    " assets");
     }
 
     NodeTreeBuild build()
@@ -80,20 +80,21 @@ private:
     {
         const Shape& shape = shapes_.shapes[shapeIndex];
         std::vector<u32> polygons;
-        for (u32 p = 0; p < shape.polygonCount; ++p) {
-            if (area(shapes_.polygons[shape.polygonBegin + p]) >= kMinArea) polygons.push_back(shape.polygonBegin + p);
-            else ++build_.degenerateCount;
+        std::vector<PlaneItem> planes;
+        for (u32 p = shape.polygonBegin; p < shape.polygonBegin + shape.polygonCount; ++p) {
+            const Polygon3& polygon = shapes_.polygons[p];
+            if (area(polygon) >= kMinArea) {
+                polygons.push_back(p);
+                planes.push_back({unitNormal(polygon), polygon.outer[0]});
+            } else {
+                ++build_.degenerateCount;
+            }
         }
         std::vector<u32>& items = itemsOf_[shapeIndex];
-        while (!polygons.empty()) {
-            const glm::dvec3 normal = unitNormal(shapes_.polygons[polygons[0]]);
-            const double offset = glm::dot(normal, shapes_.polygons[polygons[0]].outer[0]);
-            const auto rest = std::stable_partition(polygons.begin(), polygons.end(), [&](u32 p) {
-                const Polygon3& polygon = shapes_.polygons[p];
-                return isSamePlane(normal, offset, unitNormal(polygon), glm::dot(normal, polygon.outer[0]));
-            });
-            items.push_back(makePatch(shape, std::span(polygons.begin(), rest), normal));
-            polygons.erase(polygons.begin(), rest);
+        for (std::vector<u32>& group : groupByPlane(planes)) {
+            const glm::dvec3 normal = planes[group[0]].normal;
+            for (u32& member : group) member = polygons[member];
+            items.push_back(makePatch(shape, group, normal));
         }
         for (const u32 item : items) patchesOf_[shapeIndex].push_back(raw_[item].patch);
         if (items.size() > 1) items = {makeCluster(shape, items)};
@@ -140,11 +141,6 @@ private:
         return u32(raw_.size()) - 1;
     }
 
-    static bool isSamePlane(const glm::dvec3& normal, double offset, const glm::dvec3& otherNormal, double otherOffset)
-    {
-        return glm::dot(normal, otherNormal) > 1.0 - kSameNormal && std::abs(offset - otherOffset) < kSamePlane;
-    }
-
     u32 makeParent(const Shape& shape, std::vector<u32> children)
     {
         RawNode raw;
@@ -184,9 +180,11 @@ private:
         Node& node = raw_[index].node;
         node.normal = frame.normal;
         node.coverage = node.area / signedArea(hull);
-        const double defect = std::abs(node.coverage - 1.0);
-        node.kind = defect <= kTiling ? NodeKind::Tiling : NodeKind::PlanarPartial;
-        if (node.kind == NodeKind::Tiling) build_.areaDefect = std::max(build_.areaDefect, defect);
+        const double excess = node.coverage - 1.0;
+        node.kind = std::abs(excess) <= kTiling ? NodeKind::Tiling : NodeKind::PlanarPartial;
+        if (excess > kTiling) ++build_.overlapCount; // More area than the hull has: children lie on each other.
+        const double defect = node.kind == NodeKind::Tiling ? std::abs(excess) : std::max(excess, 0.0);
+        build_.areaDefect = std::max(build_.areaDefect, defect);
         node.ringBegin = u32(tree.rings.size());
         node.ringCount = 1;
         Ring3 ring;
@@ -224,8 +222,8 @@ private:
         return balance(shape, boxes, frame);
     }
 
-    /// Collects the items of a shape from its children and makes planar nodes of the coplanar ones. What is left passes on to
-    /// the parent, up to the face of a solid or the root of a building.
+    /// Collects the items of a shape from its children and makes planar nodes of the coplanar ones. What is left passes
+    /// on to the parent, up to the face of a solid or the root of a building.
     void gather(u32 shapeIndex)
     {
         const Shape& shape = shapes_.shapes[shapeIndex];
@@ -240,22 +238,18 @@ private:
         if (!items.empty()) raw_[items[0]].sealed = true;
     }
 
-    std::vector<u32> mergePlanes(const Shape& shape, std::vector<u32> rest)
+    /// Faces of solids and clusters stay as they are, the others become one item for each plane.
+    std::vector<u32> mergePlanes(const Shape& shape, const std::vector<u32>& items)
     {
+        std::vector<PlaneItem> planes;
+        for (const u32 item : items) {
+            const RawNode& raw = raw_[item];
+            planes.push_back({raw.node.normal, raw.node.centroid, raw.sealed || raw.node.kind == NodeKind::Cluster});
+        }
         std::vector<u32> merged;
-        while (!rest.empty()) {
-            const Node first = raw_[rest[0]].node;
-            const bool fixed = raw_[rest[0]].sealed || first.kind == NodeKind::Cluster;
-            const double offset = glm::dot(first.normal, first.centroid);
-            auto other = std::stable_partition(rest.begin(), rest.end(), [&](u32 item) {
-                const RawNode& raw = raw_[item];
-                return !fixed && !raw.sealed && raw.node.kind != NodeKind::Cluster &&
-                       isSamePlane(first.normal, offset, raw.node.normal, glm::dot(first.normal, raw.node.centroid));
-            });
-            if (fixed) other = rest.begin() + 1;
-            const std::span<const u32> group(rest.begin(), other);
+        for (std::vector<u32>& group : groupByPlane(planes)) {
+            for (u32& member : group) member = items[member];
             merged.push_back(group.size() == 1 ? group[0] : makePlane(shape, group));
-            rest.erase(rest.begin(), other);
         }
         return merged;
     }
@@ -294,23 +288,29 @@ private:
             const Shape& shape = shapes_.shapes[i];
             if (shape.placement == AssetPlacement::None) continue;
             u32 patch = kNoIndex;
-            if (shape.placement == AssetPlacement::Overlay) patch = patchBehind(i);
-            else if (!patchesOf_[i].empty()) patch = patchesOf_[i][0];
-            if (patch == kNoIndex) ++build_.orphanOverlayCount;
-            else build_.instances.push_back({shape.asset, patch, shape.worldFromAsset});
+            if (shape.placement == AssetPlacement::Overlay)
+                patch = patchBehind(i);
+            else if (!patchesOf_[i].empty())
+                patch = patchesOf_[i][0];
+            if (patch == kNoIndex)
+                ++build_.orphanOverlayCount;
+            else
+                build_.instances.push_back({shape.asset, patch, shape.worldFromAsset});
         }
         std::stable_sort(build_.instances.begin(), build_.instances.end(),
                          [](const AssetInstance& a, const AssetInstance& b) { return a.asset < b.asset; });
     }
 
-    /// The patch whose light an overlay takes: the one behind its centre, in the smallest subtree around it that has one.
+    /// The patch whose light an overlay takes: the one behind its centre, in the smallest subtree around it that has
+    /// one.
     u32 patchBehind(u32 shapeIndex) const
     {
         const Shape& shape = shapes_.shapes[shapeIndex];
         const glm::dvec3 centre = shape.worldFromAsset * glm::dvec4(assets_[shape.asset].boxCentre, 1.0);
         u32 best = kNoIndex;
         double bestScore = 1e300;
-        for (u32 ancestor = shape.parent; ancestor != kNoIndex && bestScore > 0.5; ancestor = shapes_.shapes[ancestor].parent)
+        for (u32 ancestor = shape.parent; ancestor != kNoIndex && bestScore > 0.5;
+             ancestor = shapes_.shapes[ancestor].parent)
             searchBehind(ancestor, centre, best, bestScore);
         return best;
     }
@@ -350,6 +350,9 @@ private:
 
 } // namespace
 
-NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets) { return Builder(shapes, assets).build(); }
+NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets)
+{
+    return Builder(shapes, assets).build();
+}
 
 } // namespace helio

@@ -30,12 +30,16 @@ struct NodeTreeBuild
     std::vector<AssetInstance> instances; ///< sorted by asset, then in order of derivation
     u32 degenerateCount = 0;              ///< polygons dropped because their area is below 1e-8 m2
     u32 orphanOverlayCount = 0;           ///< overlays without any patch of their building to stand on: not drawn
-    double areaDefect = 0.0;              ///< largest |area - sum of children| / area over tiling nodes
+    u32 overlapCount = 0;                 ///< planar nodes whose children overlap: more area than their outline's hull
+    /// Area ledger: largest |coverage - 1| over tiling nodes and largest coverage - 1 over the other planar nodes with
+    /// children. Above 1e-5 only where children overlap; an overlap smaller than the gaps beside it does not show.
+    double areaDefect = 0.0;
 };
 
-/// Builds the node tree from a derivation (design.md 4.2, 4.6): coplanar leaves under one shape form planar nodes, long
+/// Builds the node tree from a derivation (city/README.md): coplanar leaves under one shape form planar nodes, long
 /// sequences get balanced binary nodes, everything else is a cluster. `assets` holds one entry an asset of the
-/// derivation; its reflectance replaces that of a patch which the asset fills. An overlay takes the id of the patch behind it.
+/// derivation; its reflectance replaces that of a patch which the asset fills. An overlay takes the id of the patch
+/// behind it.
 NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets);
 
 } // namespace helio

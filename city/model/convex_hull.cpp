@@ -13,7 +13,7 @@ Ring2 convexHull(std::span<const glm::dvec2> points)
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     if (sorted.size() < 3) return sorted;
     const auto turnsLeft = [](const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b) {
-        return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x) > 0.0;
+        return cross(o, a, b) > 0.0;
     };
     Ring2 hull;
     const auto chain = [&](auto begin, auto end) {

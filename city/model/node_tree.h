@@ -9,7 +9,7 @@
 
 namespace helio {
 
-/// design.md 4.6: which invariants a node's area obeys.
+/// city/README.md: which invariants a node's area obeys.
 enum class NodeKind : u8
 {
     Tiling,        ///< planar; its outline's area equals the sum of its children's to 1e-5

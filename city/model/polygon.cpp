@@ -17,6 +17,17 @@ double signedArea(std::span<const glm::dvec2> ring)
     return 0.5 * twice;
 }
 
+bool contains(std::span<const glm::dvec2> ring, const glm::dvec2& point)
+{
+    bool inside = false;
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+        const glm::dvec2 a = ring[i], b = ring[j];
+        if ((a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x)
+            inside = !inside;
+    }
+    return inside;
+}
+
 double area(const Polygon2& polygon)
 {
     double sum = std::abs(signedArea(polygon.outer));
@@ -38,7 +49,10 @@ glm::dvec3 vectorArea(const Polygon3& polygon)
     return sum;
 }
 
-double area(const Polygon3& polygon) { return glm::length(vectorArea(polygon)); }
+double area(const Polygon3& polygon)
+{
+    return glm::length(vectorArea(polygon));
+}
 
 glm::dvec3 unitNormal(const Polygon3& polygon)
 {
@@ -71,7 +85,8 @@ glm::dvec3 centroid(const Polygon3& polygon)
 PlaneFrame planeFrame(const glm::dvec3& n)
 {
     // Walls get a horizontal u, so that rectangles of a facade are axis-aligned in the frame.
-    const glm::dvec3 u = std::abs(n.z) < 0.999999 ? glm::normalize(glm::cross(glm::dvec3(0, 0, 1), n)) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u =
+        std::abs(n.z) < 0.999999 ? glm::normalize(glm::cross(glm::dvec3(0, 0, 1), n)) : glm::dvec3(1, 0, 0);
     return {u, glm::cross(n, u), n};
 }
 

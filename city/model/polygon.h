@@ -32,6 +32,19 @@ double signedArea(std::span<const glm::dvec2> ring);
 /// Area of a polygon less its holes, m2.
 double area(const Polygon2& polygon);
 
+/// z of the cross product: twice the signed area of the triangle 0, a, b.
+inline double cross(const glm::dvec2& a, const glm::dvec2& b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+/// The same for the triangle o, a, b: positive if it runs counter-clockwise.
+inline double cross(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b)
+{
+    return cross(a - o, b - o);
+}
+/// True if the point lies inside the ring (even-odd); points on the border may go either way.
+bool contains(std::span<const glm::dvec2> ring, const glm::dvec2& point);
+
 /// Vector area of a ring, m2 (Newell): its length is the area, its direction the normal of the lit side.
 glm::dvec3 vectorArea(std::span<const glm::dvec3> ring);
 glm::dvec3 vectorArea(const Polygon3& polygon);

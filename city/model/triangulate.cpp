@@ -7,11 +7,6 @@
 namespace helio {
 namespace {
 
-double cross(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b)
-{
-    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
-
 bool insideTriangle(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
 {
     return cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
@@ -20,9 +15,8 @@ bool insideTriangle(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& 
 /// Joins a hole to the loop by two coincident edges from the hole's rightmost corner to a visible corner of the loop.
 void bridgeHole(std::vector<u32>& loop, std::vector<u32> hole, const std::vector<glm::dvec2>& p)
 {
-    const auto rightmost = std::max_element(hole.begin(), hole.end(), [&](u32 a, u32 b) {
-        return p[a].x != p[b].x ? p[a].x < p[b].x : p[a].y < p[b].y;
-    });
+    const auto rightmost = std::max_element(
+        hole.begin(), hole.end(), [&](u32 a, u32 b) { return p[a].x != p[b].x ? p[a].x < p[b].x : p[a].y < p[b].y; });
     std::rotate(hole.begin(), rightmost, hole.end());
     const glm::dvec2 m = p[hole[0]];
 
@@ -39,8 +33,8 @@ void bridgeHole(std::vector<u32>& loop, std::vector<u32> hole, const std::vector
     }
     if (best == loop.size()) return; // The hole is not inside the outer ring: leave it out.
 
-    // The edge's end with larger x is visible unless a reflex corner lies in the triangle (m, hit, end); then the one with the
-    // smallest angle to the ray is.
+    // The edge's end with larger x is visible unless a reflex corner lies in the triangle (m, hit, end); then the one
+    // with the smallest angle to the ray is.
     const size_t next = (best + 1) % loop.size();
     size_t bridge = p[loop[best]].x > p[loop[next]].x ? best : next;
     const glm::dvec2 hit(bestX, m.y), end = p[loop[bridge]];
@@ -125,7 +119,8 @@ std::vector<std::array<u32, 3>> triangulate(const Polygon3& polygon)
     const PlaneFrame frame = planeFrame(unitNormal(polygon));
     const auto flatten = [&](const Ring3& ring) {
         Ring2 flat;
-        for (const glm::dvec3& q : ring) flat.emplace_back(glm::dot(q - polygon.outer[0], frame.u), glm::dot(q - polygon.outer[0], frame.v));
+        for (const glm::dvec3& q : ring)
+            flat.emplace_back(glm::dot(q - polygon.outer[0], frame.u), glm::dot(q - polygon.outer[0], frame.v));
         return flat;
     };
     Polygon2 flat{flatten(polygon.outer), {}};

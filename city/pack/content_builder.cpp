@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/pack/content_builder.h"
 
+#include <algorithm>
+#include <array>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "city/model/triangulate.h"
+#include "city/pack/reveal.h"
 #include "city/pack/vertex_pack.h"
 
 namespace helio {
@@ -35,6 +39,45 @@ public:
     ContentBuilder(const NodeTreeBuild& build, std::span<const AssetMesh> assets)
         : build_(build), tree_(build.tree), assets_(assets)
     {
+    }
+
+    /// Counted before any table is filled, so that no number wraps and no memory is spent in vain.
+    Status checkSize(const ContentLimits& limits) const
+    {
+        size_t corners = 0, vertices = 0, indices = 0;
+        const auto cornersOf = [&](u32 node) {
+            size_t sum = 0;
+            const Node& n = tree_.nodes[node];
+            for (u32 r = n.ringBegin; r < n.ringBegin + n.ringCount; ++r) sum += tree_.rings[r].size();
+            return sum;
+        };
+        for (u32 node = 0; node < tree_.nodeCount(); ++node) {
+            const size_t own = cornersOf(node);
+            corners += own;
+            if (node >= tree_.patchCount() || tree_.patches[node].asset != kNoIndex) continue;
+            vertices += own;
+            // n + 2h - 2 triangles fill a polygon of n corners in all and h holes.
+            indices += 3 * (own + 2 * tree_.nodes[node].ringCount);
+        }
+        for (size_t i = 0; i < build_.instances.size(); ++i) {
+            if (revealDepth(build_.instances[i]) > 0.0) {
+                const size_t edges = cornersOf(build_.instances[i].patch);
+                vertices += 5 * edges;
+                indices += 9 * edges;
+            }
+            const u32 asset = build_.instances[i].asset;
+            if (i > 0 && build_.instances[i - 1].asset == asset) continue;
+            vertices += assets_[asset].positions.size();
+            indices += assets_[asset].indices.size();
+        }
+        const auto tooMany = [](const char* what, size_t count, size_t most) {
+            return Error{concat("the city has too many ", what, " for one tile: ", count, " of at most ", most,
+                                "; bake a smaller part, or with a coarser LOD")};
+        };
+        if (corners > limits.corners) return tooMany("corners", corners, limits.corners);
+        if (vertices > limits.vertices) return tooMany("vertices", vertices, limits.vertices);
+        if (indices > limits.indices) return tooMany("indices", indices, limits.indices);
+        return Nothing{};
     }
 
     PackContent build(LightBake light)
@@ -98,7 +141,6 @@ private:
         for (u32 i = 0; i < tree_.nodeCount(); ++i) {
             const u32 first = tree_.nodes[i].ringBegin;
             for (u32 r = first; r < first + tree_.nodes[i].ringCount; ++r) {
-                HELIO_CHECK(c_.outlinePoints.size() < (1u << 31), "too many corners for one tile");
                 c_.outlineRings.push_back(u32(c_.outlinePoints.size()) << 1 | u32(tree_.ringIsHole[r] != 0));
                 for (const glm::dvec3& q : tree_.rings[r]) {
                     const glm::vec3 rounded(q);
@@ -117,13 +159,10 @@ private:
         c_.index.boundsMax = glm::max(c_.index.boundsMax, point);
     }
 
-    void addPolygon(u32 patch, const Polygon3& polygon)
+    void addPolygon(u32 patch, const Polygon3& polygon, const glm::dvec3& facing)
     {
-        HELIO_CHECK(c_.vertices.size() < kNoIndex / 2 && c_.indices.size() < kNoIndex / 2,
-                    "too many vertices for one tile");
         const u32 base = u32(c_.vertices.size());
-        const u32 normal = packNormal(tree_.nodes[patch].normal),
-                  albedo = packAlbedo(glm::dvec3(tree_.patches[patch].rho));
+        const u32 normal = packNormal(facing), albedo = packAlbedo(glm::dvec3(tree_.patches[patch].rho));
         const auto addRing = [&](const Ring3& ring) {
             for (const glm::dvec3& q : ring) {
                 c_.vertices.push_back({q, patch, normal, albedo});
@@ -146,11 +185,49 @@ private:
             for (u32 r = first; r < end;) { // An outer ring is followed by its holes.
                 Polygon3 polygon{tree_.rings[r++], {}};
                 while (r < end && tree_.ringIsHole[r] != 0) polygon.holes.push_back(tree_.rings[r++]);
-                addPolygon(patch, polygon);
+                addPolygon(patch, polygon, tree_.nodes[patch].normal);
             }
         }
+        addReveals();
         c_.instances.push_back({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, 0, 0, 0});
         if (!c_.indices.empty()) c_.draws.push_back({u32(c_.indices.size()), 1, 0, 0, 0});
+    }
+
+    /// How far an asset that fills its tile reaches behind it, m; 0 for overlays and for assets without depth.
+    double revealDepth(const AssetInstance& instance) const
+    {
+        constexpr double kShallow = 1e-3, kBehind = 0.002; // m: the recess ends behind the asset's own back
+        if (tree_.patches[instance.patch].asset != instance.asset) return 0.0;
+        const Node& node = tree_.nodes[instance.patch];
+        double depth = 0.0;
+        for (const glm::dvec3& corner : boxCorners(instance))
+            depth = std::max(depth, glm::dot(tree_.rings[node.ringBegin][0] - corner, node.normal));
+        return depth > kShallow ? depth + kBehind : 0.0;
+    }
+
+    /// Closes the wall behind assets that fill their tile: nobody looks, and no sun shines, past their frames.
+    void addReveals()
+    {
+        for (const AssetInstance& instance : build_.instances) {
+            const double depth = revealDepth(instance);
+            if (depth == 0.0) continue;
+            const Node& node = tree_.nodes[instance.patch];
+            for (const Polygon3& face : revealOf(tree_.rings[node.ringBegin], node.normal, depth))
+                addPolygon(instance.patch, face, unitNormal(face));
+        }
+    }
+
+    std::array<glm::dvec3, 8> boxCorners(const AssetInstance& instance) const
+    {
+        const AssetMesh& mesh = assets_[instance.asset];
+        std::array<glm::dvec3, 8> corners;
+        for (u32 k = 0; k < 8; ++k) {
+            const glm::dvec3 local((k & 1) != 0 ? mesh.boxMax.x : mesh.boxMin.x,
+                                   (k & 2) != 0 ? mesh.boxMax.y : mesh.boxMin.y,
+                                   (k & 4) != 0 ? mesh.boxMax.z : mesh.boxMin.z);
+            corners[k] = instance.worldFromAsset * glm::dvec4(local, 1.0);
+        }
+        return corners;
     }
 
     void addAssets()
@@ -172,13 +249,7 @@ private:
             record.worldFromLocal[row] = glm::dvec4(m[0][row], m[1][row], m[2][row], m[3][row]);
         record.patchId = instance.patch;
         c_.instances.push_back(record);
-        const AssetMesh& mesh = assets_[instance.asset];
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 local((corner & 1) != 0 ? mesh.boxMax.x : mesh.boxMin.x,
-                                   (corner & 2) != 0 ? mesh.boxMax.y : mesh.boxMin.y,
-                                   (corner & 4) != 0 ? mesh.boxMax.z : mesh.boxMin.z);
-            include(m * glm::dvec4(local, 1.0));
-        }
+        for (const glm::dvec3& corner : boxCorners(instance)) include(corner);
     }
 
     void addMesh(const AssetMesh& mesh, u32 firstInstance, u32 instanceCount)
@@ -198,9 +269,12 @@ private:
 
 } // namespace
 
-PackContent buildContent(const NodeTreeBuild& build, std::span<const AssetMesh> assets, LightBake light)
+Result<PackContent> buildContent(const NodeTreeBuild& build, std::span<const AssetMesh> assets, LightBake light,
+                                 const ContentLimits& limits)
 {
-    return ContentBuilder(build, assets).build(std::move(light));
+    ContentBuilder builder(build, assets);
+    if (Status fits = builder.checkSize(limits); !fits) return fits.error();
+    return builder.build(std::move(light));
 }
 
 } // namespace helio

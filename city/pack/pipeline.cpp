@@ -76,7 +76,7 @@ public:
         buildTree();
         if (build_.tree.patches.empty())
             return Error{concat(sourceName(), ": nothing to light: no surface has an area")};
-        lightTree();
+        if (Status status = lightTree(); !status) return status.error();
         describe();
         clock_.end();
         return std::move(out_);
@@ -202,17 +202,20 @@ private:
         shapes_ = {};
     }
 
-    void lightTree()
+    Status lightTree()
     {
         clock_.begin("light");
         LightBake light = bakeLight(build_.tree, options_.light);
         out_.stats.light = light.stats;
         clock_.begin("content");
         PackIndex index = std::move(out_.content.index);
-        out_.content = buildContent(build_, meshes_, std::move(light));
+        Result<PackContent> content = buildContent(build_, meshes_, std::move(light));
+        if (!content) return Error{concat(sourceName(), ": ", content.error().message)};
+        out_.content = std::move(*content);
         index.boundsMin = out_.content.index.boundsMin;
         index.boundsMax = out_.content.index.boundsMax;
         out_.content.index = std::move(index);
+        return Nothing{};
     }
 
     void describe()
@@ -243,6 +246,11 @@ private:
         stats.degeneratePolygons = build_.degenerateCount;
         stats.orphanOverlays = build_.orphanOverlayCount;
         stats.areaDefect = build_.areaDefect;
+        stats.overlappingNodes = build_.overlapCount;
+        if (build_.overlapCount > 0)
+            stats.notes.push_back(concat("nodes: in ", build_.overlapCount,
+                                         " plane nodes polygons lie on each other (by up to ",
+                                         100.0 * build_.areaDefect, " % of the outline): a face that is there twice?"));
     }
 
     const BakeOptions& options_;

@@ -31,7 +31,8 @@ struct BakeStats
     u32 buildings = 0, nodes = 0, patches = 0, instances = 0;
     u64 triangles = 0; ///< drawn, instances counted
     u32 degeneratePolygons = 0, orphanOverlays = 0;
-    double areaDefect = 0.0; ///< area ledger: largest |area - children's sum| / area of tiling nodes
+    u32 overlappingNodes = 0; ///< planar nodes whose children overlap
+    double areaDefect = 0.0;  ///< area ledger: see NodeTreeBuild::areaDefect
     LightStats light;
     std::map<std::string, double> reports; ///< report() of the rules, summed per key
     std::vector<std::string> notes;        ///< repaired or skipped input and warnings of the rules, one line each

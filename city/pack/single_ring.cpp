@@ -7,11 +7,6 @@
 namespace helio {
 namespace {
 
-double cross(const glm::dvec2& o, const glm::dvec2& a, const glm::dvec2& b)
-{
-    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-}
-
 /// True if the open segments cross in one inner point.
 bool crosses(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d)
 {

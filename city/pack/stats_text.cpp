@@ -74,6 +74,9 @@ std::string statsText(const BakeStats& stats, double peakMiB)
     line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * stats.light.closureDefect,
          std::abs(stats.light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
     line(text, "  %-20s %.2e", "area-ledger defect", stats.areaDefect);
+    if (stats.overlappingNodes > 0)
+        line(text, "  %-20s %u (their children have more area than their outline)", "overlapping nodes",
+             stats.overlappingNodes);
     if (stats.degeneratePolygons > 0)
         line(text, "  %-20s %u (area below 1e-8 m2)", "dropped polygons", stats.degeneratePolygons);
     if (stats.orphanOverlays > 0)
@@ -106,6 +109,7 @@ std::string statsJson(const BakeStats& stats, double peakMiB)
     json["sky_rays"] = rangeJson(stats.light.sky);
     json["closure_defect"] = stats.light.closureDefect;
     json["area_ledger_defect"] = stats.areaDefect;
+    json["overlapping_nodes"] = stats.overlappingNodes;
     json["dropped_polygons"] = stats.degeneratePolygons;
     json["dropped_assets"] = stats.orphanOverlays;
     json["reports"] = stats.reports;

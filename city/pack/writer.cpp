@@ -171,8 +171,10 @@ std::error_code exchangeFolders(const fs::path& from, const fs::path& to)
     fs::path old = from;
     old += ".old";
     fs::rename(to, old, failure);
-    if (!failure) fs::rename(from, to, failure);
-    if (!failure) fs::rename(old, from, failure);
+    if (failure) return failure;
+    fs::rename(from, to, failure);
+    std::error_code ignored;
+    fs::rename(old, failure ? to : from, ignored);
     return failure;
 }
 
@@ -223,14 +225,19 @@ Status checkPackTarget(const fs::path& folder)
     return Nothing{};
 }
 
+Status checkContent(const PackContent& content, const std::string& name)
+{
+    SectionPlaces places;
+    places.file = concat(name, ": not written, the bake is faulty");
+    return validateTile(content.view(), content.index, places);
+}
+
 Status writePack(const PackContent& content, const fs::path& folder, const WriteOptions& options)
 {
     const TileView tile = content.view();
     if (Status status = checkPackTarget(folder); !status) return status;
     const fs::path target = withoutTrailingSlash(folder);
-    SectionPlaces places;
-    places.file = concat(target.string(), ": not written, the bake is faulty");
-    if (Status status = validateTile(tile, content.index, places); !status) return status;
+    if (Status status = checkContent(content, target.string()); !status) return status;
 
     const TilePieces pieces = layOut(tile, options.zstd);
     fs::path temporary = target;

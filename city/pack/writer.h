@@ -25,6 +25,10 @@ struct EncodedTile
 };
 EncodedTile encodeTile(const TileView& tile, bool zstd = false);
 
+/// Says why a reader would refuse the content: a fault of the program that made it, never of its input. `name` stands
+/// for the pack. writePack asks it, too; a program that asks first can tell its own faults from those of the disk.
+Status checkContent(const PackContent& content, const std::string& name);
+
 /// Writes a pack folder: to a temporary folder beside the target, then renamed into its place. An existing pack is
 /// replaced; any other folder or file at the target is an error, and so is content that a reader would refuse. Bytes
 /// depend on the content and the options alone.

@@ -47,9 +47,9 @@ void CityMesh::describe(GraphicsPipelineDesc& desc, bool shading)
         {gpu::kAttributeRow2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceRecord, worldFromLocal) + 2 * kRow},
         {gpu::kAttributeInstancePatch, 1, VK_FORMAT_R32_UINT, offsetof(InstanceRecord, patchId)},
     };
-    if (!shading) return;
     // Packed values are read as words and unpacked by the shader: signed ten-bit vertex formats are optional.
     desc.attributes.push_back({gpu::kAttributeNormal, 0, VK_FORMAT_R32_UINT, offsetof(VertexRecord, normal)});
+    if (!shading) return;
     desc.attributes.push_back({gpu::kAttributeAlbedo, 0, VK_FORMAT_R32_UINT, offsetof(VertexRecord, albedo)});
 }
 

@@ -33,7 +33,7 @@ class CityMesh
 public:
     CityMesh(PassBuilder& pass, const TileTables& tile, const DrawList& list);
 
-    /// Vertex slots and attributes of every mesh pipeline (shaders/lib/mesh.glsl); with shading also normal and albedo.
+    /// Vertex slots and attributes of every mesh pipeline (shaders/lib/mesh.glsl); with shading also the albedo.
     static void describe(GraphicsPipelineDesc& desc, bool shading);
     u32 staticCount() const { return staticCount_; }
     u32 count() const { return u32(draws_->size()); }

@@ -151,4 +151,17 @@ double residualOf(const gpu::ResidualRecord& sums)
     return worst;
 }
 
+double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums)
+{
+    constexpr double kSlowest = 0.9999;
+    double worst = 0.0;
+    for (int c = 0; c < 4; ++c) {
+        if (!(sums.change[c] > 0.0f && sums.scale[c] > 0.0f)) continue;
+        const double residual = std::sqrt(double(sums.change[c]) / double(sums.scale[c]));
+        const double q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
+        worst = std::max(worst, residual * q / (1.0 - std::min(q, kSlowest)));
+    }
+    return worst;
+}
+
 } // namespace helio

@@ -50,5 +50,9 @@ u32 updateGroups(const TileTables& tile);
 
 /// ||B_new - B|| / ||B_new - B0||, area weighted, of the channel where it is largest; 0 when nothing is reflected.
 double residualOf(const gpu::ResidualRecord& sums);
+/// What is still missing from B after a sweep, on the scale of residualOf, if the steps go on shrinking as they did
+/// between the last two sweeps: residual q / (1 - q) with q = ||step|| / ||step before||, in the worst channel. Large
+/// when the steps do not shrink.
+double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums);
 
 } // namespace helio

@@ -58,7 +58,7 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
                     CityMesh::describe(city, true);
                     drawing.pipeline(std::move(city));
                     drawing.bind({storage(gpu::kForwardView, view),
-                                  sampled(gpu::kForwardShadow, shadow, Sampler::Shadow, {0, 0, true}),
+                                  sampled(gpu::kForwardShadow, shadow, Sampler::Nearest, {0, 0, true}),
                                   storage(gpu::kForwardPatches, patches), storage(gpu::kForwardSun, sun),
                                   storage(gpu::kForwardSky, sky), storage(gpu::kForwardIndirect, indirect),
                                   storage(gpu::kForwardRadiosity, radiosity), storage(gpu::kForwardCorners, corners),

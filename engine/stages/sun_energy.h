@@ -25,7 +25,7 @@ struct SunEnergyRefs
     Ref<Buffer> tally;      ///< SunTallyRecord
 };
 
-/// Stage 2: counts to E_sun = DNI cos(theta) V (design.md 4.7). Patches with too few samples take the ratio of an
+/// Stage 2: counts to E_sun = DNI cos(theta) V (city/README.md). Patches with too few samples take the ratio of an
 /// ancestor. density: scratch, vec4 a node.
 SunEnergyRefs addSunEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> counts, Ref<Buffer> density,
                            SunEnergyRefs to, const SunEnergyInput& input);

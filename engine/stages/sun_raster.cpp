@@ -6,6 +6,12 @@
 
 namespace helio {
 
+namespace {
+
+constexpr double kUnlitOffset = 0.001; // m
+
+} // namespace
+
 SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SunView& sun, u32 view,
                          SunPictures pictures)
 {
@@ -14,7 +20,9 @@ SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawLi
         SunPictures out;
         out.ids = pass.write(pictures.ids, Use::ColorTarget);
         out.depth = pass.write(pictures.depth, view == 0 ? Use::DepthTarget : Use::DepthTargetLoad);
-        pass.record([=, params = gpu::SunRasterParams{sun.clipFromWorld(view)}](PassContext& ctx) {
+        pass.record([=, params = gpu::SunRasterParams{sun.clipFromWorld(view),
+                                                      glm::vec4(sun.towardsSun, float(kUnlitOffset / sun.depthRange))}](
+                        PassContext& ctx) {
             RenderTargets targets;
             VkClearColorValue background{};
             background.uint32[0] = gpu::kNone;

@@ -120,6 +120,7 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
     const double width = std::max(r.hi.x - r.lo.x, 1e-3) + kSkew * height;
 
     SunView view;
+    view.towardsSun = glm::vec3(towardsSun);
     double skew = 0.0; // of y by x
     glm::dvec2 extent(0.0);
     for (double texel = std::max(options.texel, std::sqrt(width * height / double(options.maxTexels)));;

@@ -22,8 +22,9 @@ struct SunViewOptions
 /// The sun's orthographic picture of the scene: a rectangle in light space, cut into a grid of views of the same size.
 struct SunView
 {
-    glm::mat4 gridFromWorld{1.0f}; ///< x in [0, gridX], y in [0, gridY] (y up), z in [0, 1] away from the sun
-    float shear = 0.0f;            ///< added to y a unit of x from the left edge of each view, see clipFromWorld
+    glm::vec3 towardsSun{0.0f, 0.0f, 1.0f}; ///< unit
+    glm::mat4 gridFromWorld{1.0f};          ///< x in [0, gridX], y in [0, gridY] (y up), z in [0, 1] away from the sun
+    float shear = 0.0f; ///< added to y a unit of x from the left edge of each view, see clipFromWorld
     u32 gridX = 1, gridY = 1;
     u32 width = 1, height = 1;         ///< texels of one view
     double texelX = 1.0, texelY = 1.0; ///< m

@@ -23,6 +23,9 @@ Buffer makeZeros(Context& context, const char* name, u64 vectors)
     return makeBuffer(context, name, std::vector<glm::vec4>(vectors, glm::vec4(0.0f)));
 }
 
+/// Share of the tolerance that the estimated error may take: it is an estimate, in the mean over the patches.
+constexpr double kErrorShare = 0.5;
+
 /// The stage of the report that a pass belongs to.
 const char* stageOf(const std::string& pass)
 {
@@ -159,6 +162,7 @@ void LightSolver::sweep(const LightState& light, bool warm)
     }
     const SolveOptions& to = options_.solve;
     const u32 limit = std::max(to.exactSweeps > 0 ? to.exactSweeps : to.maxSweeps, 1u);
+    gpu::ResidualRecord before{};
     for (report_.sweeps = 0; report_.sweeps < limit;) {
         FrameGraph graph("sweep");
         const UpdateRefs result =
@@ -170,7 +174,10 @@ void LightSolver::sweep(const LightState& light, bool warm)
         const auto sums = readHost<gpu::ResidualRecord>(residualHost_);
         report_.residual = residualOf(sums);
         report_.meanRadiosity = glm::dvec4(sums.radiosity);
-        if (to.exactSweeps == 0 && report_.residual <= to.residual) break;
+        // The residual is the defect of one step; where light is reflected many times the steps still to come add up.
+        const double error = remainingErrorOf(before, sums);
+        if (to.exactSweeps == 0 && report_.residual <= to.residual && error <= kErrorShare * to.residual) break;
+        before = sums;
     }
     report_.meanRadiosity /= tile_.patchArea;
 }

@@ -20,7 +20,8 @@ namespace helio {
 /// How far the sweeps go.
 struct SolveOptions
 {
-    double residual = 1e-3; ///< stop when the relative, area-weighted residual is at most this
+    double residual = 1e-3; ///< stop when the relative, area-weighted residual is at most this, and the estimate of
+                            ///< what is still missing half of it (residualOf, remainingErrorOf)
     u32 maxSweeps = 100;    ///< stop after this many in any case, >= 1
     u32 exactSweeps = 0;    ///< > 0: exactly this many, whatever the residual
     bool warmStart = false; ///< start from the last solution: fewer sweeps, but bits that depend on what came before

@@ -18,8 +18,9 @@ HELIO_CONSTANT uint kAttributeInstancePatch = 7u;
 
 struct SunRasterParams {   // push constant
     mat4 clipFromWorld;    // orthographic view from the sun, one a view of the grid
+    vec4 towardsSun;       // unit; w = depth by which surfaces that face away are moved towards the sun
 };
-HELIO_SIZE(SunRasterParams, 64);
+HELIO_SIZE(SunRasterParams, 80);
 
 // Histogram: lanes side by side in x, each walks kHistogramRun rows down, kHistogramStep texels at a time.
 HELIO_CONSTANT uint kHistogramGroup = 64u;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -18,15 +19,22 @@ std::vector<std::string> cells(const std::string& line)
     return out;
 }
 
+/// Not a number for text: a text column is no harm until somebody compares with it.
+double number(const std::string& cell)
+{
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    return !cell.empty() && *end == '\0' ? value : std::nan("");
+}
+
 } // namespace
 
-const std::vector<double>& CsvTable::column(const std::string& name) const
+std::vector<double> CsvTable::column(const std::string& name) const
 {
-    static const std::vector<double> none;
     const auto found = columns.find(name);
     if (found != columns.end()) return found->second;
     ADD_FAILURE() << "no column " << name;
-    return none;
+    return std::vector<double>(rows, 0.0);
 }
 
 CsvTable readCsvTable(const std::string& path)
@@ -43,8 +51,8 @@ CsvTable readCsvTable(const std::string& path)
             continue;
         }
         EXPECT_EQ(row.size(), header.size()) << path << ", data row " << table.rows;
-        for (size_t i = 0; i < std::min(row.size(), header.size()); ++i)
-            table.columns[header[i]].push_back(std::strtod(row[i].c_str(), nullptr));
+        for (size_t i = 0; i < header.size(); ++i)
+            table.columns[header[i]].push_back(i < row.size() ? number(row[i]) : std::nan(""));
         ++table.rows;
     }
     return table;

@@ -6,15 +6,14 @@
 
 namespace helio::test {
 
-/// A CSV file with a header line; lines that start with '#' are comments. Numbers only, text cells read as 0.
+/// A CSV file with a header line; lines that start with '#' are comments. Cells that are no number read as NaN.
 struct CsvTable
 {
     std::map<std::string, std::vector<double>> columns;
     size_t rows = 0;
 
     /// Fails the running test and gives zeros when the column is missing.
-    const std::vector<double>& column(const std::string& name) const;
-    bool has(const std::string& name) const { return columns.count(name) > 0; }
+    std::vector<double> column(const std::string& name) const;
 };
 
 /// Fails the running test when the file cannot be read or a row has too few cells.

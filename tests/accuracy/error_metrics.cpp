@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace helio::test {
@@ -10,6 +11,10 @@ namespace helio::test {
 ErrorMetrics compare(const std::vector<double>& area, const std::vector<double>& result, const std::vector<double>& reference,
                      const std::vector<double>& referenceSe, const std::vector<bool>& keep)
 {
+    const double bad = std::numeric_limits<double>::infinity();
+    const size_t faces = area.size();
+    if (result.size() != faces || reference.size() != faces || referenceSe.size() != faces || keep.size() != faces)
+        return {bad, bad, bad};
     double areaSum = 0.0, mean = 0.0, difference = 0.0, square = 0.0, noise = 0.0;
     std::vector<std::pair<double, double>> magnitudes; // |e - r|, area
     for (size_t i = 0; i < area.size(); ++i) {
@@ -22,6 +27,7 @@ ErrorMetrics compare(const std::vector<double>& area, const std::vector<double>&
         noise += area[i] * referenceSe[i] * referenceSe[i];
         magnitudes.emplace_back(std::abs(d), area[i]);
     }
+    if (!std::isfinite(square) || !std::isfinite(noise) || !(areaSum > 0.0)) return {bad, bad, bad};
     mean /= areaSum;
     std::sort(magnitudes.begin(), magnitudes.end());
     ErrorMetrics metrics;

@@ -14,6 +14,7 @@ struct ErrorMetrics
 };
 
 /// `area`, `result`, `reference` and `referenceSe` (standard error) have one entry a face; only faces with keep != 0 count.
+/// Infinite errors for lengths that differ, for values that are not finite, and for no face at all.
 ErrorMetrics compare(const std::vector<double>& area, const std::vector<double>& result, const std::vector<double>& reference,
                      const std::vector<double>& referenceSe, const std::vector<bool>& keep);
 

@@ -15,7 +15,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size);
 
 namespace helio {
-extern u64 acceptedTiles;
+extern u64 acceptedTiles, acceptedIndices, refusedIndices;
 
 namespace {
 
@@ -64,6 +64,44 @@ void mutate(std::vector<std::uint8_t>& bytes, Random& random)
     }
 }
 
+/// Changes of an index that keep most of it JSON.
+void mutateText(std::vector<std::uint8_t>& bytes, Random& random)
+{
+    constexpr std::string_view kTelling[] = {"null", "1e999", "-1",  "1e400",   "18446744073709551616",
+                                             "\"\"", "[",     "]",   "{",       "}",
+                                             ",",    ":",     "\"",  "\\u0000", "true",
+                                             "{}",   "[[]]",  "0.5", "\xff"};
+    const auto below = [&](size_t n) { return size_t(random.next() % std::max<size_t>(n, 1)); };
+    const auto put = [&](size_t at, size_t gone, std::string_view text) {
+        const auto first = bytes.begin() + std::ptrdiff_t(at);
+        bytes.insert(bytes.erase(first, first + std::ptrdiff_t(std::min(gone, bytes.size() - at))), text.begin(),
+                     text.end());
+    };
+    for (size_t step = 0, count = 1 + below(3); step < count && bytes.size() > 32; ++step) {
+        size_t at = 17 + below(bytes.size() - 17);
+        switch (below(4)) {
+        case 0: { // Another value behind a colon.
+            while (at + 2 < bytes.size() && bytes[at] != ':') ++at;
+            size_t end = std::min(at + 2, bytes.size());
+            const size_t start = end;
+            while (end < bytes.size() && bytes[end] != ',' && bytes[end] != '\n') ++end;
+            put(start, end - start, kTelling[below(std::size(kTelling))]);
+            break;
+        }
+        case 1: // Digits stay digits.
+            while (at + 1 < bytes.size() && (bytes[at] < '0' || bytes[at] > '9')) ++at;
+            bytes[at] = std::uint8_t('0' + below(10));
+            break;
+        case 2:
+            put(at, below(8), kTelling[below(std::size(kTelling))]);
+            break;
+        default: // Nesting, up to more than any stack holds.
+            if (below(16) == 0) put(at, 0, std::string(size_t(1) << below(18), below(2) == 0 ? '[' : '{'));
+            break;
+        }
+    }
+}
+
 int run(u64 count, u64 seed)
 {
     const PackContent content = test::samplePack();
@@ -79,12 +117,16 @@ int run(u64 count, u64 seed)
     for (u64 i = 0; i < count; ++i) {
         Random random(mixSeed(seed, i));
         std::vector<std::uint8_t> bytes = seeds[i % std::size(seeds)];
-        mutate(bytes, random);
+        if (i % std::size(seeds) == 2 && random.next() % 4 != 0)
+            mutateText(bytes, random);
+        else
+            mutate(bytes, random);
         LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     }
-    std::printf("%llu mutated packs, %llu of them readable\n", static_cast<unsigned long long>(count),
-                static_cast<unsigned long long>(acceptedTiles - 4));
-    return acceptedTiles > 4 ? 0 : 1;
+    std::printf("%llu mutated packs, %llu of them readable; indices: %llu readable, %llu not\n",
+                static_cast<unsigned long long>(count), static_cast<unsigned long long>(acceptedTiles - 4),
+                static_cast<unsigned long long>(acceptedIndices), static_cast<unsigned long long>(refusedIndices));
+    return acceptedTiles > 4 && acceptedIndices > 1 && refusedIndices > 0 ? 0 : 1;
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 #include "tests/numeric/fixtures.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace helio::test {
@@ -35,7 +37,8 @@ NodeTree makeTree(const std::vector<Face>& faces)
     return buildNodes(shapes, {}).tree;
 }
 
-std::vector<Face> grid(const glm::dvec3& corner, const glm::dvec3& edgeU, const glm::dvec3& edgeV, u32 nu, u32 nv, const Face& like)
+std::vector<Face> grid(const glm::dvec3& corner, const glm::dvec3& edgeU, const glm::dvec3& edgeV, u32 nu, u32 nv,
+                       const Face& like)
 {
     std::vector<Face> faces;
     for (u32 j = 0; j < nv; ++j) {
@@ -82,7 +85,15 @@ LinkTable makeLinks(const NodeTree& tree, const std::vector<TestLink>& links)
     return table;
 }
 
-void append(std::vector<Face>& to, const std::vector<Face>& more) { to.insert(to.end(), more.begin(), more.end()); }
+void append(std::vector<Face>& to, const std::vector<Face>& more)
+{
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+void raise(double& maximum, double value)
+{
+    maximum = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(maximum, value);
+}
 
 std::vector<Face> moved(std::vector<Face> faces, const glm::dvec3& offset)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel against values of closed forms and of an independent high-precision evaluation (50 digits and more; names are the
-// rows of that table).
+// The kernel against values of closed forms and of an independent high-precision evaluation (50 digits and more; names
+// are the rows of that table).
 #include "city/light/form_factor.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +23,17 @@ Ring3 horizontal(double x0, double x1, double y0, double y1, double z, bool face
 }
 
 /// In the plane x = 0, facing +x.
-Ring3 vertical(double z0, double z1, double y0, double y1) { return {{0, y0, z0}, {0, y1, z0}, {0, y1, z1}, {0, y0, z1}}; }
+Ring3 vertical(double z0, double z1, double y0, double y1)
+{
+    return {{0, y0, z0}, {0, y1, z0}, {0, y1, z1}, {0, y0, z1}};
+}
 
 using Rings = std::vector<Ring3>;
 
-double factor(const Rings& a, const Rings& b) { return exchange(planarShape(a), planarShape(b)) / planarShape(a).area; }
+double factor(const Rings& a, const Rings& b)
+{
+    return exchange(planarShape(a), planarShape(b)) / planarShape(a).area;
+}
 
 struct Opposed // R1 at z = 0 facing up, R2 at z facing down
 {
@@ -62,7 +68,8 @@ TEST(FormFactor, OpposedRectangles)
         {"P13 sliver to wall", 0, .001, 0, 100, 10, 0, 20, 0, 100, 0.4122027445176317486, 1e-8},
         {"P14 sliver to sliver", 0, .001, 0, 100, .001, 0, .001, 0, 100, 0.41421076872909668142, 1e-8}};
     for (const Opposed& c : cases) {
-        const double f = factor({horizontal(c.x0, c.x1, c.y0, c.y1, 0, true)}, {horizontal(c.u0, c.u1, c.v0, c.v1, c.z, false)});
+        const double f =
+            factor({horizontal(c.x0, c.x1, c.y0, c.y1, 0, true)}, {horizontal(c.u0, c.u1, c.v0, c.v1, c.z, false)});
         EXPECT_NEAR(f / c.expected, 1.0, c.tolerance) << c.name;
     }
 }
@@ -94,7 +101,8 @@ TEST(FormFactor, HingedRectangles)
                             {"R04", 1, 1, 1, 179.9, 2.3608665446788677202e-7, 2e-2}};
     for (const Hinged& c : cases) {
         const double angle = c.angle * std::numbers::pi / 180.0, x = c.w2 * std::cos(angle), z = c.w2 * std::sin(angle);
-        const double f = factor({horizontal(0, c.w1, 0, c.l, 0, true)}, {{{0, 0, 0}, {0, c.l, 0}, {x, c.l, z}, {x, 0, z}}});
+        const double f =
+            factor({horizontal(0, c.w1, 0, c.l, 0, true)}, {{{0, 0, 0}, {0, c.l, 0}, {x, c.l, z}, {x, 0, z}}});
         EXPECT_NEAR(f / c.expected, 1.0, c.tolerance) << c.name;
     }
 }
@@ -106,7 +114,8 @@ TEST(FormFactor, TrianglesConcaveAndCutPolygons)
     const Rings ell{{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}};
     EXPECT_NEAR(factor(ell, {horizontal(0, 2, 0, 2, 2, false)}) / 0.16798876529848359182, 1.0, 1e-6) << "S03";
     // Half of the ground lies behind the wall and must not count.
-    EXPECT_NEAR(factor({horizontal(-5, 5, 0, 10, 0, true)}, {vertical(0, 8, 0, 10)}) / 0.1396560017209588, 1.0, 1e-8) << "H01";
+    EXPECT_NEAR(factor({horizontal(-5, 5, 0, 10, 0, true)}, {vertical(0, 8, 0, 10)}) / 0.1396560017209588, 1.0, 1e-8)
+        << "H01";
 }
 
 TEST(FormFactor, HolesAndSeveralOuterRingsAreSubtractedAndAdded)
@@ -118,14 +127,16 @@ TEST(FormFactor, HolesAndSeveralOuterRingsAreSubtractedAndAdded)
         const Rings other{horizontal(-1, 3, 0, 2, z, false)};
         const auto with = [&](const Rings& rings) { return exchange(planarShape(rings), planarShape(other)); };
         EXPECT_NEAR(with({outer, hole}), with({outer}) - with({inner}), 1e-5 * with({outer})) << z;
-        EXPECT_NEAR(with({inner, horizontal(6, 7, 0, 1, 0, true)}), with({inner}) + with({horizontal(6, 7, 0, 1, 0, true)}),
-                    1e-5 * with({inner})) << z;
+        EXPECT_NEAR(with({inner, horizontal(6, 7, 0, 1, 0, true)}),
+                    with({inner}) + with({horizontal(6, 7, 0, 1, 0, true)}), 1e-5 * with({inner}))
+            << z;
     }
 }
 
 TEST(FormFactor, OneSidedAndNeverNegative)
 {
-    const Rings up{horizontal(0, 1, 0, 1, 0, true)}, down{horizontal(0, 1, 0, 1, 1, false)}, upAbove{horizontal(0, 1, 0, 1, 1, true)};
+    const Rings up{horizontal(0, 1, 0, 1, 0, true)}, down{horizontal(0, 1, 0, 1, 1, false)},
+        upAbove{horizontal(0, 1, 0, 1, 1, true)};
     EXPECT_GT(factor(up, down), 0.19);
     EXPECT_EQ(factor(up, upAbove), 0.0);
     EXPECT_EQ(factor(up, {horizontal(2, 3, 0, 1, 0, true)}), 0.0) << "same plane";
@@ -168,7 +179,8 @@ TEST(FormFactor, PartsAddUp)
         double sum = 0.0;
         for (int i = 0; i < 8; ++i)
             for (int j = 0; j < 8; ++j)
-                sum += exchange(planarShape(ground), planarShape(Rings{vertical(0.5 * i, 0.5 * i + 0.5, 0.75 * j, 0.75 * j + 0.75)}));
+                sum += exchange(planarShape(ground),
+                                planarShape(Rings{vertical(0.5 * i, 0.5 * i + 0.5, 0.75 * j, 0.75 * j + 0.75)}));
         const double whole = exchange(planarShape(ground), planarShape(Rings{vertical(0, 4, 0, 6)}));
         EXPECT_NEAR(sum / whole, 1.0, 1e-5) << distance;
     }

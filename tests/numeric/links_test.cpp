@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "city/light/bake_light.h"
 #include "city/light/form_factor.h"
+#include "city/light/links.h"
 #include "city/light/reference_solver.h"
 #include "city/light/transfer.h"
 #include "tests/numeric/fixtures.h"
@@ -16,7 +19,10 @@ using namespace helio::test;
 
 namespace {
 
-std::vector<glm::dvec4> none(const NodeTree& tree) { return std::vector<glm::dvec4>(tree.patchCount(), glm::dvec4(0.0)); }
+std::vector<glm::dvec4> none(const NodeTree& tree)
+{
+    return std::vector<glm::dvec4>(tree.patchCount(), glm::dvec4(0.0));
+}
 
 /// Flux that goes from one group of patches to another, per unit radiosity: sum of A_i F_ij, m2.
 double groupExchange(const NodeTree& tree, const LinkTable& links, u32 fromBegin, u32 fromEnd, u32 toBegin, u32 toEnd)
@@ -40,6 +46,28 @@ std::vector<Face> street()
     return faces;
 }
 
+/// Blocks of 6 x 6 x 9 m in n x n, 8 m apart, each wall and roof of 4 x 4 faces, on a ground of n x n.
+std::vector<Face> blocks(u32 n)
+{
+    std::vector<Face> faces;
+    u32 group = 0;
+    const double extent = 14.0 * n;
+    append(faces, grid({0, 0, 0}, {extent, 0, 0}, {0, extent, 0}, n, n, {{}, group++, glm::dvec4(0.2)}));
+    const glm::dvec3 x(6, 0, 0), y(0, 6, 0), z(0, 0, 9);
+    for (u32 block = 0; block < n * n; ++block) {
+        const glm::dvec3 o(14.0 * (block % n) + 4.0, 14.0 * (block / n) + 4.0, 0.0);
+        const auto side = [&](const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
+            append(faces, grid(corner, u, v, 4, 4, {{}, group++, glm::dvec4(0.5)}));
+        };
+        side(o, x, z);
+        side(o + x, y, z);
+        side(o + x + y, -x, z);
+        side(o + y, -y, z);
+        side(o + z, x, y);
+    }
+    return faces;
+}
+
 } // namespace
 
 TEST(Transfer, FourPointsAgreeWithTheContourAndPartialNodesWithTheirPatches)
@@ -52,7 +80,8 @@ TEST(Transfer, FourPointsAgreeWithTheContourAndPartialNodesWithTheirPatches)
     const Transfer transfer(tree);
     const auto outline = [&](u32 node) { return planarShape(tree.outlineOf(node)); };
     EXPECT_NEAR(transfer.between(0, 1) / exchange(outline(0), outline(1)), 1.0, 1e-3);
-    EXPECT_EQ(transfer.between(0, 1), transfer.between(0, 1));
+    // The same sixteen terms in another order.
+    EXPECT_NEAR(transfer.between(1, 0) / transfer.between(0, 1), 1.0, 1e-13);
     const u32 parent = tree.nodes[2].parent;
     ASSERT_EQ(tree.nodes[parent].kind, NodeKind::PlanarPartial);
     EXPECT_NEAR(tree.nodes[parent].coverage, 0.5, 1e-9);
@@ -65,14 +94,16 @@ TEST(Links, FactorsAreReciprocalAndRowsDoNotExceedOne)
     const LightBake bake = bakeLight(tree, {});
     ASSERT_GT(bake.links.column.size(), 500u);
     const auto factor = [&](u32 receiver, u32 sender) {
-        const auto begin = bake.links.column.begin() + bake.links.rowBegin[receiver], end = bake.links.column.begin() + bake.links.rowBegin[receiver + 1];
+        const auto begin = bake.links.column.begin() + bake.links.rowBegin[receiver],
+                   end = bake.links.column.begin() + bake.links.rowBegin[receiver + 1];
         const auto at = std::lower_bound(begin, end, sender);
         return at != end && *at == sender ? double(bake.links.factor[size_t(at - bake.links.column.begin())]) : 0.0;
     };
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         for (u32 k = bake.links.rowBegin[i]; k < bake.links.rowBegin[i + 1]; ++k) {
             const u32 j = bake.links.column[k];
-            const double there = tree.nodes[i].area * double(bake.links.factor[k]), back = tree.nodes[j].area * factor(j, i);
+            const double there = tree.nodes[i].area * double(bake.links.factor[k]),
+                         back = tree.nodes[j].area * factor(j, i);
             ASSERT_GT(there, 0.0);
             ASSERT_NEAR(there / back, 1.0, 3e-7) << i << " " << j;
             ASSERT_NE(tree.nodes[i].kind, NodeKind::Cluster);
@@ -99,6 +130,19 @@ TEST(Links, OcclusionOfASquareByASquare)
     }
 }
 
+TEST(Links, NearPlatesBehindAHalfScreen)
+{
+    // 10 x 10 m plates 0.2 m apart, one patch each; a screen half-way covers half of the gap. Points that exchange are
+    // 0.2 m apart, so the visible share is 1/2 and a little leak at the screen's edge (0.1 m of 10 m).
+    std::vector<Face> faces = grid({0, 0, 0}, {10, 0, 0}, {0, 10, 0}, 1, 1, {{}, 0});
+    append(faces, grid({0, 0, 0.2}, {0, 10, 0}, {10, 0, 0}, 1, 1, {{}, 1}));
+    append(faces, grid({0, 0, 0.1}, {5, 0, 0}, {0, 10, 0}, 1, 1, {{}, 2}));
+    const NodeTree tree = makeTree(faces);
+    const double open = exchange(planarShape(tree.outlineOf(0)), planarShape(tree.outlineOf(1)));
+    const LightBake bake = bakeLight(tree, {});
+    EXPECT_NEAR(groupExchange(tree, bake.links, 0, 1, 1, 2) / open, 0.5, 0.05);
+}
+
 TEST(Links, TwoLeavesAreAlwaysLinked)
 {
     // However large the error of such a link is estimated: here the whole scene is two single patches.
@@ -107,13 +151,15 @@ TEST(Links, TwoLeavesAreAlwaysLinked)
     const NodeTree tree = makeTree(faces);
     const LightBake bake = bakeLight(tree, {.formFactorEpsilon = 1e-9});
     ASSERT_EQ(bake.links.column.size(), 2u);
-    EXPECT_NEAR(100.0 * double(bake.links.factor[0]), exchange(planarShape(tree.outlineOf(0)), planarShape(tree.outlineOf(1))), 1e-4);
+    EXPECT_NEAR(100.0 * double(bake.links.factor[0]),
+                exchange(planarShape(tree.outlineOf(0)), planarShape(tree.outlineOf(1))), 1e-4);
 }
 
 TEST(Links, InfiniteParallelPlatesAndTwoPatches)
 {
     // 1000 x 1000 m, 1 m apart: F = 0.998. B1 = (E1 + rho1 F E2) / (1 - rho1 rho2 F^2); F = 1 when infinite.
-    std::vector<Face> faces = grid({0, 0, 0}, {1000, 0, 0}, {0, 1000, 0}, 1, 1, {{}, 0, glm::dvec4(0.6), glm::dvec4(2.0)});
+    std::vector<Face> faces =
+        grid({0, 0, 0}, {1000, 0, 0}, {0, 1000, 0}, 1, 1, {{}, 0, glm::dvec4(0.6), glm::dvec4(2.0)});
     append(faces, grid({0, 0, 1}, {0, 1000, 0}, {1000, 0, 0}, 1, 1, {{}, 1, glm::dvec4(0.3), glm::dvec4(1.0)}));
     const NodeTree tree = makeTree(faces);
     const LightBake bake = bakeLight(tree, {});
@@ -129,7 +175,7 @@ TEST(Links, FurnaceWithinItsRowSumError)
     const NodeTree tree = makeTree(room({10, 7, 4}, 4, {0.2, 0.5, 0.8, 0.0}, glm::dvec4(1.0)));
     const LightBake bake = bakeLight(tree, {});
     double defect = 0.0;
-    for (const double sum : patchRowSums(tree, bake.links)) defect = std::max(defect, std::abs(sum - 1.0));
+    for (const double sum : patchRowSums(tree, bake.links)) raise(defect, std::abs(sum - 1.0));
     EXPECT_LT(defect, 1e-3) << "no closure was applied: this is the factors' own error";
     const Solution s = solveLight(tree, bake.links, none(tree), none(tree), {.residual = 1e-8});
     for (u32 i = 0; i < tree.patchCount(); ++i) {
@@ -161,17 +207,26 @@ TEST(Links, CubeWithGlowingFloorConverges)
 
 TEST(Links, SameBytesForAnyNumberOfJobs)
 {
-    const NodeTree tree = makeTree(street());
+    // More than one chunk of work in every step: 256 patches (sky), 16 pairs of roots (links), 4096 nodes (rows).
+    const NodeTree tree = makeTree(blocks(7));
+    ASSERT_GT(tree.patchCount(), 600u);
+    ASSERT_GT(tree.nodeCount(), 4096u);
     for (const LinkMethod method : {LinkMethod::Heliopolis, LinkMethod::Paper, LinkMethod::PaperLiteral}) {
-        const LightBake one = bakeLight(tree, {.method = method, .jobs = 1}), two = bakeLight(tree, {.method = method, .jobs = 2});
+        const LightOptions options{
+            .method = method, .formFactorEpsilon = method == LinkMethod::Heliopolis ? 2e-3 : 0.1, .raysPerPatch = 128};
+        LightOptions serial = options, parallel = options;
+        serial.jobs = 1;
+        parallel.jobs = 3;
+        const LightBake one = bakeLight(tree, serial), two = bakeLight(tree, parallel);
+        EXPECT_GT(one.stats.rootPairCount, 40u);
         EXPECT_FALSE(one.links.column.empty());
         EXPECT_EQ(one.links.rowBegin, two.links.rowBegin);
         EXPECT_EQ(one.links.column, two.links.column);
         EXPECT_EQ(one.links.factor, two.links.factor);
         EXPECT_EQ(one.sky.factor, two.sky.factor);
     }
-    const LightBake other = bakeLight(tree, {.seed = 2});
-    EXPECT_NE(other.sky.factor, bakeLight(tree, {}).sky.factor) << "the seed matters";
+    const NodeTree small = makeTree(street());
+    EXPECT_NE(bakeLight(small, {.seed = 2}).sky.factor, bakeLight(small, {}).sky.factor) << "the seed matters";
 }
 
 TEST(Links, TranslationToMapCoordinatesChangesNothingThatMatters)
@@ -198,6 +253,50 @@ TEST(Links, SmallerEpsilonGivesMoreLinksAndLessError)
         lastError = std::sqrt(square);
     }
     EXPECT_LT(lastError, 0.01);
+}
+
+TEST(Links, StatisticsNameTheValuesInUse)
+{
+    const NodeTree tree = makeTree(street());
+    const LightStats chosen = bakeLight(tree, {}).stats;
+    EXPECT_EQ(chosen.formFactorEpsilon, 5e-4);
+    EXPECT_EQ(chosen.raysPerPatch, 1024u);
+    EXPECT_EQ(chosen.raysPerLink, 4u);
+    const LightStats given = bakeLight(tree, {.formFactorEpsilon = 3e-3, .raysPerPatch = 200, .raysPerLink = 7}).stats;
+    EXPECT_EQ(given.formFactorEpsilon, 3e-3);
+    EXPECT_EQ(given.raysPerPatch, 200u);
+    EXPECT_EQ(given.raysPerLink, 7u);
+    const LightStats paper = bakeLight(tree, {.method = LinkMethod::Paper, .raysPerLink = 7}).stats;
+    EXPECT_EQ(paper.formFactorEpsilon, 0.02);
+    EXPECT_EQ(paper.raysPerLink, 0u) << "no visibility";
+}
+
+TEST(Links, StatisticsNameTheShareOfTheAreaThatIsInside)
+{
+    // A closed box of 2 m, lit outside (24 m2), and 1 m2 in it, which sees nothing but back sides.
+    const glm::dvec3 x(2, 0, 0), y(0, 2, 0), z(0, 0, 2), o(0.0);
+    std::vector<Face> faces;
+    append(faces, grid(o, y, x, 1, 1, {{}, 0}));
+    append(faces, grid(z, x, y, 1, 1, {{}, 1}));
+    append(faces, grid(o, z, y, 1, 1, {{}, 2}));
+    append(faces, grid(x, y, z, 1, 1, {{}, 3}));
+    append(faces, grid(o, x, z, 1, 1, {{}, 4}));
+    append(faces, grid(y, z, x, 1, 1, {{}, 5}));
+    append(faces, grid({.5, .5, 1}, {1, 0, 0}, {0, 1, 0}, 1, 1, {{}, 6}));
+    const LightStats stats = bakeLight(makeTree(faces), {}).stats;
+    EXPECT_EQ(stats.insidePatchCount, 1u);
+    EXPECT_NEAR(stats.insideAreaShare, 1.0 / 25.0, 1e-12);
+}
+
+TEST(LinksDeathTest, MorePairsThanRowsCanCountAreRefusedWithAWayOut)
+{
+    // Address space only: the count is refused before a pair is read.
+    const size_t count = kNoIndex / 2;
+    void* room = mmap(nullptr, count * sizeof(NodePair), PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    ASSERT_NE(room, MAP_FAILED);
+    const std::span pairs(static_cast<const NodePair*>(room), count);
+    EXPECT_DEATH(linkTable({}, pairs, 1), "limit is 2147483646 .*larger form factor epsilon");
+    munmap(room, count * sizeof(NodePair));
 }
 
 TEST(Links, ProgressRunsFromZeroToOneInEveryStep)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "city/light/bake_light.h"
 #include "tests/numeric/fixtures.h"
 
 using namespace helio;
@@ -21,10 +22,10 @@ NodeTree floorAndCeiling(u32 n, u32 m, double gap)
     return makeTree(faces);
 }
 
-double totalExchange(const std::vector<NodePair>& pairs)
+double totalExchange(const NodeTree& tree, const std::vector<FactorPair>& pairs)
 {
     double sum = 0.0;
-    for (const NodePair& pair : pairs) sum += double(pair.exchange);
+    for (const FactorPair& pair : pairs) sum += tree.nodes[pair.a].area * double(pair.fab);
     return sum;
 }
 
@@ -40,15 +41,37 @@ TEST(PaperLinks, DiscFactorByHand)
     EXPECT_NEAR(discFactor(tree.nodes[1], tree.nodes[0]), 1.0 / (100.0 * std::numbers::pi + 1.0), 1e-15);
 }
 
+TEST(PaperLinks, EachDirectionHasItsOwnEstimate)
+{
+    // 100 m2 and 1 m2, centres 1 m apart, in either order. A link back by reciprocity would be 100 / (pi + 1) = 24.1.
+    const std::vector<Face> large = grid({-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, 1, 1, {{}, 0});
+    const std::vector<Face> small = grid({-.5, -.5, 1}, {0, 1, 0}, {1, 0, 0}, 1, 1, {{}, 1});
+    for (const bool largeFirst : {true, false}) {
+        std::vector<Face> faces = largeFirst ? large : small;
+        append(faces, largeFirst ? small : large);
+        const NodeTree tree = makeTree(faces);
+        const u32 big = largeFirst ? 0 : 1;
+        for (const LinkMethod method : {LinkMethod::Paper, LinkMethod::PaperLiteral}) {
+            const LinkTable links = bakeLight(tree, {.method = method, .formFactorEpsilon = 1.0}).links;
+            ASSERT_EQ(links.factor.size(), 2u);
+            ASSERT_EQ(links.column[links.rowBegin[big]], 1 - big);
+            ASSERT_EQ(links.column[links.rowBegin[1 - big]], big);
+            EXPECT_NEAR(double(links.factor[links.rowBegin[big]]), 1.0 / (std::numbers::pi + 1.0), 1e-7);
+            EXPECT_NEAR(double(links.factor[links.rowBegin[1 - big]]), 100.0 / (std::numbers::pi + 100.0), 1e-7);
+        }
+    }
+}
+
 TEST(PaperLinks, LeafRuleKeepsTheLightThatThePrintedAlgorithmLoses)
 {
     // Two leaves nearer than the threshold allows: the printed recursion has no children to go to and makes no link.
     const NodeTree leaves = floorAndCeiling(1, 1, 5.0);
     ASSERT_GT(discFactor(leaves.nodes[0], leaves.nodes[1]), 0.1);
     EXPECT_TRUE(paperLinks(leaves, {.epsilon = 0.1, .literal = true}).empty());
-    const std::vector<NodePair> repaired = paperLinks(leaves, {.epsilon = 0.1});
+    const std::vector<FactorPair> repaired = paperLinks(leaves, {.epsilon = 0.1});
     ASSERT_EQ(repaired.size(), 1u);
-    EXPECT_NEAR(double(repaired[0].exchange), 100.0 * discFactor(leaves.nodes[0], leaves.nodes[1]), 1e-4);
+    EXPECT_NEAR(double(repaired[0].fab), 100.0 / (25.0 * std::numbers::pi + 100.0), 1e-6);
+    EXPECT_NEAR(double(repaired[0].fba), 100.0 / (25.0 * std::numbers::pi + 100.0), 1e-6);
 
     // One leaf, the other with children: the leaf hands the refinement over.
     const NodeTree uneven = floorAndCeiling(1, 2, 5.0);
@@ -60,14 +83,15 @@ TEST(PaperLinks, LeafRuleKeepsTheLightThatThePrintedAlgorithmLoses)
 
 TEST(PaperLinks, RefinesTheNodeThatLooksLarge)
 {
-    // A small square before a large one, both with children: F small -> large is large, F large -> small is not. The large one is
-    // to be opened, the small one stays whole. The printed rule opens the small one, down to its leaves, and the light is gone.
+    // A small square before a large one, both with children: F small -> large is large, F large -> small is not. The
+    // large one is to be opened, the small one stays whole. The printed rule opens the small one, down to its leaves,
+    // and the light is gone.
     std::vector<Face> faces = grid({4.5, 4.5, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2, {{}, 0});
     append(faces, grid({0, 0, 4}, {0, 10, 0}, {10, 0, 0}, 4, 4, {{}, 1}));
     const NodeTree tree = makeTree(faces);
-    const std::vector<NodePair> repaired = paperLinks(tree, {.epsilon = 0.2});
+    const std::vector<FactorPair> repaired = paperLinks(tree, {.epsilon = 0.2});
     EXPECT_GT(repaired.size(), 1u);
-    for (const NodePair& pair : repaired) {
+    for (const FactorPair& pair : repaired) {
         EXPECT_TRUE(tree.isPlanarRoot(std::min(pair.a, pair.b)) || tree.isPlanarRoot(std::max(pair.a, pair.b)));
         EXPECT_NEAR(std::min(tree.nodes[pair.a].centroid.z, tree.nodes[pair.b].centroid.z), 0.0, 1e-9);
         const u32 small = tree.nodes[pair.a].centroid.z < 1.0 ? pair.a : pair.b;
@@ -79,13 +103,13 @@ TEST(PaperLinks, RefinesTheNodeThatLooksLarge)
 TEST(PaperLinks, CutOffByBoxesIsMonotoneUnderRefinement)
 {
     // Two long walls that meet at a corner: the centres are 28 m apart, the nearest patches touch.
-    std::vector<Face> faces = grid({0, 0, 0}, {0, 40, 0}, {0, 0, 4}, 8, 1, {{}, 0});       // faces +x
-    append(faces, grid({0, 0, 0}, {0, 0, 4}, {40, 0, 0}, 1, 8, {{}, 1}));                  // faces +y
+    std::vector<Face> faces = grid({0, 0, 0}, {0, 40, 0}, {0, 0, 4}, 8, 1, {{}, 0}); // faces +x
+    append(faces, grid({0, 0, 0}, {0, 0, 4}, {40, 0, 0}, 1, 8, {{}, 1}));            // faces +y
     const NodeTree tree = makeTree(faces);
     EXPECT_TRUE(paperLinks(tree, {.epsilon = 0.01, .cutoff = 22.5, .literal = true}).empty());
-    const std::vector<NodePair> near = paperLinks(tree, {.epsilon = 0.01, .cutoff = 22.5});
-    const std::vector<NodePair> all = paperLinks(tree, {.epsilon = 0.01, .cutoff = 0.0});
+    const std::vector<FactorPair> near = paperLinks(tree, {.epsilon = 0.01, .cutoff = 22.5});
+    const std::vector<FactorPair> all = paperLinks(tree, {.epsilon = 0.01, .cutoff = 0.0});
     EXPECT_GT(near.size(), 10u);
-    EXPECT_LE(totalExchange(near), totalExchange(all));
-    EXPECT_GT(totalExchange(near), 0.5 * totalExchange(all));
+    EXPECT_LE(totalExchange(tree, near), totalExchange(tree, all));
+    EXPECT_GT(totalExchange(tree, near), 0.5 * totalExchange(tree, all));
 }

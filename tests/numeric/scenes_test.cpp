@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole solutions against the reference path tracer (tests/data/scenes/README.md); sun by shadow rays, so that what is judged
-// are the links, the sky and the solver.
+// Whole solutions against the reference path tracer (tests/data/scenes/README.md); sun by shadow rays, so that what is
+// judged are the links, the sky and the solver.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "city/model/build_nodes.h"
 #include "tests/accuracy/csv_table.h"
 #include "tests/accuracy/error_metrics.h"
+#include "tests/numeric/fixtures.h"
 
 using namespace helio;
 using namespace helio::test;
@@ -62,13 +63,14 @@ ErrorMetrics judge(const Scene& scene, const char* what, const std::vector<glm::
 {
     ErrorMetrics mean;
     for (u32 c = 0; c < 3; ++c) {
-        const ErrorMetrics m = compare(scene.reference.column("area"), scene.perFace(indirect, c), reference(kChannels[c]),
-                                       scene.reference.column(se), scene.keep);
+        const ErrorMetrics m = compare(scene.reference.column("area"), scene.perFace(indirect, c),
+                                       reference(kChannels[c]), scene.reference.column(se), scene.keep);
         mean.rms += m.rms / 3.0;
         mean.bias += m.bias / 3.0;
         mean.p95 += m.p95 / 3.0;
     }
-    std::printf("  E_indirect of %s: rms %.2f %%, bias %+.2f %%, P95 %.2f %%\n", what, 100 * mean.rms, 100 * mean.bias, 100 * mean.p95);
+    std::printf("  E_indirect of %s: rms %.2f %%, bias %+.2f %%, P95 %.2f %%\n", what, 100 * mean.rms, 100 * mean.bias,
+                100 * mean.p95);
     return mean;
 }
 
@@ -77,15 +79,17 @@ void judgeSunAndSky(const Scene& scene, double azimuth, double elevation, double
     const NodeTree& tree = scene.tree;
     const u32 n = tree.patchCount();
     const Visibility visibility(tree);
-    const std::vector<double> share = raySun(tree, visibility, sunDirection(azimuth * kDegree, elevation * kDegree), 256);
+    const std::vector<double> share =
+        raySun(tree, visibility, sunDirection(azimuth * kDegree, elevation * kDegree), 256);
     std::vector<glm::dvec4> sun(n), sky(n), zero(n, glm::dvec4(0.0));
     for (u32 i = 0; i < n; ++i) {
         sun[i] = glm::dvec4(kDni * share[i]);
         const u32 k = scene.bake.sky.rowBegin[i];
         sky[i] = glm::dvec4(scene.bake.sky.rowBegin[i + 1] > k ? kDhi * double(scene.bake.sky.factor[k]) : 0.0);
     }
-    const ErrorMetrics direct = compare(scene.reference.column("area"), scene.perFace(sun, 1), scene.reference.column("sun_dir_g"),
-                                        scene.reference.column("sun_dir_se_g"), scene.keep);
+    const ErrorMetrics direct =
+        compare(scene.reference.column("area"), scene.perFace(sun, 1), scene.reference.column("sun_dir_g"),
+                scene.reference.column("sun_dir_se_g"), scene.keep);
     EXPECT_LT(direct.rms, 0.01);
     std::vector<double> svf = scene.reference.column("svf"), svfSe = scene.reference.column("svf_se");
     for (double& v : svf) v *= kDhi;
@@ -133,7 +137,8 @@ TEST(ReferenceScenes, Furnace)
     const Solution s = solveLight(scene.tree, scene.bake.links, zero, zero, {.residual = 1e-6});
     double worst = 0.0;
     for (u32 i = 0; i < scene.tree.patchCount(); ++i)
-        for (u32 c = 0; c < 3; ++c) worst = std::max(worst, std::abs(s.radiosity[i][c] * (1.0 - scene.tree.patches[i].rho[c]) - 1.0));
+        for (u32 c = 0; c < 3; ++c)
+            raise(worst, std::abs(s.radiosity[i][c] * (1.0 - scene.tree.patches[i].rho[c]) - 1.0));
     std::printf("  B against 1 / (1 - rho): %.4f %% at most\n", 100 * worst);
     EXPECT_LT(worst, 1e-3);
 }

@@ -14,7 +14,10 @@ using namespace helio::test;
 
 namespace {
 
-std::vector<glm::dvec4> none(const NodeTree& tree) { return std::vector<glm::dvec4>(tree.patchCount(), glm::dvec4(0.0)); }
+std::vector<glm::dvec4> none(const NodeTree& tree)
+{
+    return std::vector<glm::dvec4>(tree.patchCount(), glm::dvec4(0.0));
+}
 
 /// Patches of different sizes in two planes; sizes 1, 2, ... m2 in each.
 NodeTree twoPlanes(u32 perPlane)
@@ -31,8 +34,8 @@ NodeTree twoPlanes(u32 perPlane)
     return makeTree(faces);
 }
 
-/// Every patch sees every patch, itself too, as inside a sphere: F_ij = A_j / A. `level` links nodes of the hierarchy in place
-/// of patches where it can: roots with roots, and the first root's children with the second root.
+/// Every patch sees every patch, itself too, as inside a sphere: F_ij = A_j / A. `level` links nodes of the hierarchy
+/// in place of patches where it can: roots with roots, and the first root's children with the second root.
 LinkTable sphereLinks(const NodeTree& tree, bool hierarchical)
 {
     double area = 0.0;
@@ -71,11 +74,13 @@ TEST(Solver, SphereInteriorIsExactForAnyPatternOnAnyLevel)
     }
     const glm::dvec4 h = (meanE / area) / (1.0 - meanRho / area);
     for (const bool hierarchical : {false, true}) {
-        const Solution s = solveLight(tree, sphereLinks(tree, hierarchical), none(tree), none(tree), {.residual = 1e-9});
+        const Solution s =
+            solveLight(tree, sphereLinks(tree, hierarchical), none(tree), none(tree), {.residual = 1e-9});
         for (u32 i = 0; i < tree.patchCount(); ++i) {
             for (u32 c = 0; c < 4; ++c) {
                 EXPECT_NEAR(s.indirect[i][c], h[c], 2e-6 * h[c]) << hierarchical;
-                EXPECT_NEAR(s.radiosity[i][c], tree.patches[i].emission[c] + tree.patches[i].rho[c] * h[c], 2e-6 * h[c]);
+                EXPECT_NEAR(s.radiosity[i][c], tree.patches[i].emission[c] + tree.patches[i].rho[c] * h[c],
+                            2e-6 * h[c]);
             }
         }
     }
@@ -93,7 +98,8 @@ TEST(Solver, AgreesWithEliminationOnAnUnevenHierarchy)
     std::vector<TestLink> links;
     for (u32 i = 0; i < tree.nodeCount(); ++i)
         for (u32 j = 0; j < tree.nodeCount(); ++j)
-            if (tree.nodes[i].kind != NodeKind::Cluster && tree.nodes[j].kind != NodeKind::Cluster && random.uniform() < 0.3)
+            if (tree.nodes[i].kind != NodeKind::Cluster && tree.nodes[j].kind != NodeKind::Cluster &&
+                random.uniform() < 0.3)
                 links.push_back({i, j, 0.02 * random.uniform()});
     const LinkTable table = makeLinks(tree, links);
     const Solution s = solveLight(tree, table, none(tree), none(tree), {.residual = 1e-12, .maxSweeps = 500});
@@ -113,7 +119,8 @@ TEST(Solver, TwoPatchesByHand)
     tree.patches[0].rho = glm::dvec4(0.5);
     tree.patches[1].rho = glm::dvec4(0.25);
     tree.patches[1].emission = glm::dvec4(8.0);
-    const std::vector<double> exact = solveDense(std::vector<double>{0, 0.5, 0.5, 0}, std::vector<double>{0.5, 0.25}, std::vector<double>{2, 8});
+    const std::vector<double> exact =
+        solveDense(std::vector<double>{0, 0.5, 0.5, 0}, std::vector<double>{0.5, 0.25}, std::vector<double>{2, 8});
     EXPECT_NEAR(exact[0], (2 + 0.5 * 0.5 * 8) / (1 - 0.5 * 0.25 * 0.25), 1e-12);
     const LinkTable links = makeLinks(tree, {{0, 1, 0.5}, {1, 0, 0.5}});
     std::vector<glm::dvec4> sun = none(tree), sky = none(tree);
@@ -153,10 +160,12 @@ TEST(Solver, PushPullKeepsAConstantAndTheFlux)
         patch.rho = glm::dvec4(0.5);
         patch.emission = glm::dvec4(1.0);
     }
-    const Solution s = solveLight(tree, sphereLinks(tree, true), none(tree), none(tree), {.residual = 1e-10, .maxSweeps = 100});
+    const Solution s =
+        solveLight(tree, sphereLinks(tree, true), none(tree), none(tree), {.residual = 1e-10, .maxSweeps = 100});
     for (const glm::dvec4& b : s.radiosity) EXPECT_NEAR(b.x, 2.0, 1e-6);
 
-    // Refining a link must not change the flux that arrives: one link to a root, or the same factor to each of its children.
+    // Refining a link must not change the flux that arrives: one link to a root, or the same factor to each of its
+    // children.
     Random random(9);
     for (Patch& patch : tree.patches) patch.emission = glm::dvec4(random.uniform());
     std::vector<u32> roots;
@@ -165,7 +174,8 @@ TEST(Solver, PushPullKeepsAConstantAndTheFlux)
     ASSERT_EQ(roots.size(), 2u);
     std::vector<TestLink> refined;
     for (const u32 r : tree.childrenOf(roots[0]))
-        for (const u32 c : tree.childrenOf(roots[1])) refined.push_back({r, c, 0.3 * tree.nodes[c].area / tree.nodes[roots[1]].area});
+        for (const u32 c : tree.childrenOf(roots[1]))
+            refined.push_back({r, c, 0.3 * tree.nodes[c].area / tree.nodes[roots[1]].area});
     const auto flux = [&](const LinkTable& links) {
         const Solution one = solveLight(tree, links, none(tree), none(tree), {.residual = 0.0, .maxSweeps = 1});
         double sum = 0.0;
@@ -188,7 +198,8 @@ TEST(PaperMisprints, OwnRadiosityLightsAPatchByItself)
     const Solution right = solveLight(tree, links, none(tree), none(tree), {.residual = 1e-12});
     EXPECT_NEAR(right.radiosity[0].x, 1.0 / (1.0 - 0.25 * f * f), 1e-7);
     EXPECT_NEAR(right.radiosity[1].x, 0.5 * f / (1.0 - 0.25 * f * f), 1e-7);
-    const Solution printed = solveLight(tree, links, none(tree), none(tree), {.residual = 1e-12, .rule = UpdateRule::OwnRadiosity});
+    const Solution printed =
+        solveLight(tree, links, none(tree), none(tree), {.residual = 1e-12, .rule = UpdateRule::OwnRadiosity});
     EXPECT_NEAR(printed.radiosity[0].x, 1.0 / (1.0 - 0.5 * f), 1e-7);
     EXPECT_EQ(printed.radiosity[1].x, 0.0);
 }
@@ -203,7 +214,8 @@ TEST(PaperMisprints, NeverResettingGivesBinomialsInPlaceOfAGeometricSeries)
     }
     const LinkTable links = sphereLinks(tree, true);
     const Solution right = solveLight(tree, links, none(tree), none(tree), {.residual = 0.0, .maxSweeps = 3});
-    const Solution printed = solveLight(tree, links, none(tree), none(tree), {.residual = 0.0, .maxSweeps = 3, .rule = UpdateRule::NeverReset});
+    const Solution printed = solveLight(tree, links, none(tree), none(tree),
+                                        {.residual = 0.0, .maxSweeps = 3, .rule = UpdateRule::NeverReset});
     for (u32 i = 0; i < tree.patchCount(); ++i) {
         EXPECT_NEAR(right.radiosity[i].x, 1.248, 1e-6);
         EXPECT_NEAR(printed.radiosity[i].x, 1.728, 1e-6);
@@ -220,5 +232,6 @@ TEST(PaperMisprints, EnergyIsNotRadiosity)
     const LinkTable links = makeLinks(tree, {});
     EXPECT_NEAR(tree.patches[2].area, 3.0, 1e-12);
     EXPECT_NEAR(solveLight(tree, links, sun, none(tree), {}).radiosity[2].x, 25.0, 1e-12);
-    EXPECT_NEAR(solveLight(tree, links, sun, none(tree), {.rule = UpdateRule::EnergyAsRadiosity}).radiosity[2].x, 300.0, 1e-12);
+    EXPECT_NEAR(solveLight(tree, links, sun, none(tree), {.rule = UpdateRule::EnergyAsRadiosity}).radiosity[2].x, 300.0,
+                1e-12);
 }

@@ -37,7 +37,8 @@ std::vector<Face> courtyard(u32 n)
 
 TEST(Sequence, DirectionNumbersByHand)
 {
-    // Fourth dimension: polynomial x^3 + x + 1, m = 1, 3, 1, then m4 = 4 m2 ^ 8 m1 ^ m1 = 5. Point 2^k is m / 2^(k + 1).
+    // Fourth dimension: polynomial x^3 + x + 1, m = 1, 3, 1, then m4 = 4 m2 ^ 8 m1 ^ m1 = 5. Point 2^k is m / 2^(k +
+    // 1).
     EXPECT_EQ(sobol4(1)[3], 0x80000000u);
     EXPECT_EQ(sobol4(2)[3], 3u << 30);
     EXPECT_EQ(sobol4(4)[3], 1u << 29);
@@ -67,9 +68,9 @@ TEST(Sequence, SobolPointsFillEveryQuarterEvenly)
 TEST(Visibility, BlocksFromBothSidesAndEndsOnSurfaces)
 {
     for (const glm::dvec3 offset : {glm::dvec3(0.0), glm::dvec3(5e5, 4.5e6, 300.0)}) {
-        std::vector<Face> faces = square({0, 0, 0}, kX, kY, 2, 0);  // up
-        append(faces, square({0, 0, 4}, kY, kX, 2, 1));             // down
-        append(faces, square({0, 0, 2}, kX, kY, 1, 2));             // blocker, faces up
+        std::vector<Face> faces = square({0, 0, 0}, kX, kY, 2, 0); // up
+        append(faces, square({0, 0, 4}, kY, kX, 2, 1));            // down
+        append(faces, square({0, 0, 2}, kX, kY, 1, 2));            // blocker, faces up
         const NodeTree tree = makeTree(moved(faces, offset));
         const Visibility visibility(tree);
         const auto blocked = [&](double x0, double x1) {
@@ -127,8 +128,9 @@ TEST(Sky, OpenGroundWallAndCourtyard)
     EXPECT_NEAR(double(yard.sky[10 * 21 + 10]), 0.3576847466302562, 2e-3);
     // Floor as a whole: to an opening of the same size 15 m above, C-11.
     const double a = 20.0 / 15.0, s = std::sqrt(1 + a * a);
-    const double c11 = 2 / (std::numbers::pi * a * a) * (0.5 * std::log((1 + a * a) * (1 + a * a) / (1 + 2 * a * a)) + 2 * a * s * std::atan(a / s) -
-                                                        2 * a * std::atan(a));
+    const double c11 = 2 / (std::numbers::pi * a * a) *
+                       (0.5 * std::log((1 + a * a) * (1 + a * a) / (1 + 2 * a * a)) + 2 * a * s * std::atan(a / s) -
+                        2 * a * std::atan(a));
     double floor = 0.0;
     for (u32 i = 0; i < 21 * 21; ++i) floor += double(yard.sky[i]) / (21.0 * 21.0);
     EXPECT_NEAR(floor, c11, 3e-4);
@@ -145,7 +147,8 @@ TEST(Sky, FewRaysAreWellSpread)
     const Visibility visibility(tree);
     const SkyScan few = scanSky(tree, visibility, 128, 3, 0, {}), many = scanSky(tree, visibility, 8192, 4, 0, {});
     double square = 0.0;
-    for (u32 i = 0; i < tree.patchCount(); ++i) square += std::pow(double(few.sky[i] - many.sky[i]), 2) / tree.patchCount();
+    for (u32 i = 0; i < tree.patchCount(); ++i)
+        square += std::pow(double(few.sky[i] - many.sky[i]), 2) / tree.patchCount();
     EXPECT_LT(std::sqrt(square), 0.014);
 }
 

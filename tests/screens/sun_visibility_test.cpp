@@ -22,7 +22,7 @@ void PrintTo(const View& view, std::ostream* out)
 }
 
 constexpr View kViews[] = {
-    {"aerial", "aerial", 110, 35},
+    {"aerial", "-34,-40,30,0,0,4,45", 110, 35},
     {"street", "-5,-34,1.7,-5,20,6,60", 200, 50},
     {"low_sun", "30,-45,14,0,0,5,50", 245, 15},
 };
@@ -68,7 +68,7 @@ TEST(Rays, AnotherSunDisagrees)
     // The same check must see a sun that is five degrees off.
     Renderer& renderer = testRenderer(TestPack::City);
     renderer.setSun(110, 35, 800.0);
-    const Camera camera = parseCamera("aerial", testPack(TestPack::City)).value();
+    const Camera camera = parseCamera(kViews[0].camera, testPack(TestPack::City)).value();
     const Picture picture =
         renderer.render(camera, kWidth, kHeight, {.mode = gpu::kModeSunVisibility, .display = false});
     std::vector<float> visibility;

@@ -25,7 +25,7 @@ std::vector<glm::dvec4> pullUp(const TileView& tile, std::span<const glm::dvec4>
 /// At every node, the sum of its own value and of those of all its ancestors.
 std::vector<glm::dvec4> pushDown(const TileView& tile, std::span<const glm::dvec4> values);
 
-/// E_sun of each patch by the rules of design.md 4.7: own ratio, or that of the smallest ancestor with enough samples.
+/// E_sun of each patch by the rules of city/README.md: own ratio, or that of the smallest ancestor with enough samples.
 struct SunEnergy
 {
     std::vector<glm::dvec4> irradiance;

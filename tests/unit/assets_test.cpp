@@ -142,6 +142,11 @@ TEST(Assets, FaultsAreNamed)
              R"("extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"],)"),
          "KHR_draco_mesh_compression");
     says(glb(R"({"asset":{"version":"2.0"}})", "0000"), "no triangle mesh");
+    // Each node has the next one as child twice: 2^31 ways lead through the scene.
+    std::string nodes = "{}";
+    for (int k = 31; k-- > 0;) nodes = concat(R"({"children":[)", k + 1, ",", k + 1, "]},", nodes);
+    says(glb(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + "]}", "0000"),
+         "more than 100000 nodes");
     EXPECT_FALSE(loadAsset(kFolder / "missing.glb", "missing.glb").ok());
 }
 

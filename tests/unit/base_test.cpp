@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
+#include <stdexcept>
+#include <sys/resource.h>
 #include <vector>
 
 #include "city/base/file.h"
 #include "city/base/hash.h"
+#include "city/base/json_depth.h"
 #include "city/base/parallel.h"
 
 using namespace helio;
@@ -42,7 +46,51 @@ TEST(ParallelFor, CountsNearTheTopOfTheRangeDoNotWrap)
     EXPECT_EQ(ends, (std::vector<u32>{0x80000000u, 0xFFFFFFFFu}));
 }
 
-// First values of SplitMix64 seeded with 0, as published with the generator (prng.di.unimi.it/splitmix64.c run by hand).
+TEST(ParallelFor, AnExceptionOfTheBodyComesOutAtTheCaller)
+{
+    for (const u32 jobs : {1u, 4u}) {
+        std::atomic<u32> chunks{0};
+        const auto body = [&](u32 begin, u32) {
+            ++chunks;
+            if (begin >= 10) throw std::runtime_error("no memory");
+        };
+        EXPECT_THROW(parallelFor(100000, 1, jobs, body), std::runtime_error);
+        EXPECT_GE(chunks, 11u);
+        EXPECT_LT(chunks, 100000u) << "the work goes on after it failed";
+    }
+}
+
+TEST(ParallelFor, WorksWithTheThreadsThatTheSystemGives)
+{
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer itself needs the address space";
+#endif
+    // No room for the stacks of so many threads.
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    if (before.rlim_cur != RLIM_INFINITY) GTEST_SKIP() << "the address space is limited already";
+    rlimit small = before;
+    small.rlim_cur = rlim_t(1) << 30;
+    if (setrlimit(RLIMIT_AS, &small) != 0) GTEST_SKIP() << "the address space cannot be limited";
+    std::vector<int> visits(20000, 0);
+    parallelFor(u32(visits.size()), 1, 20000, [&](u32 begin, u32) { ++visits[begin]; });
+    setrlimit(RLIMIT_AS, &before);
+    EXPECT_EQ(visits, std::vector<int>(20000, 1));
+}
+
+TEST(JsonDepth, FindsTheBracketThatIsOneTooMuch)
+{
+    EXPECT_FALSE(findDeepJson("", 0));
+    EXPECT_FALSE(findDeepJson("[{}]", 2));
+    EXPECT_EQ(findDeepJson("[{}]", 1), 1u);
+    EXPECT_EQ(findDeepJson("[[],[],[[]]]", 2), 8u) << "closed brackets do not count";
+    EXPECT_FALSE(findDeepJson(R"(["[[[[", "\"[[[["])", 1)) << "brackets in texts do not count";
+    EXPECT_EQ(findDeepJson(R"(["\\",[]])", 1), 6u) << "an escaped backslash does not hide the quote behind it";
+    EXPECT_FALSE(findDeepJson("]]]][", 1));
+}
+
+// First values of SplitMix64 seeded with 0, as published with the generator (prng.di.unimi.it/splitmix64.c run by
+// hand).
 TEST(Random, IsSplitMix64)
 {
     Random random(0);
@@ -71,6 +119,11 @@ TEST(File, WritesWholeFilesOrNothing)
     ASSERT_TRUE(writeTextAtomically(folder / "a.txt", "light").ok());
     EXPECT_EQ(readTextFile(folder / "a.txt").value(), "light");
     EXPECT_FALSE(writeTextAtomically(folder / "missing" / "b.txt", "light").ok());
+    EXPECT_TRUE(checkFileTarget(folder / "b.txt").ok());
+    EXPECT_TRUE(checkFileTarget("b.txt").ok());
+    EXPECT_FALSE(checkFileTarget(folder / "missing" / "b.txt").ok());
+    EXPECT_FALSE(checkFileTarget(folder / "a.txt" / "b.txt").ok());
+    EXPECT_FALSE(checkFileTarget(folder).ok());
     size_t entries = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) entries += entry.exists() ? 1 : 0;
     EXPECT_EQ(entries, 1u);

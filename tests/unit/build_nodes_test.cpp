@@ -11,7 +11,10 @@ using namespace helio;
 namespace {
 
 /// A wall in the plane y = 0 that faces south (-y): x to the east, z up.
-Polygon3 wall(double x0, double z0, double x1, double z1) { return {{{x0, 0, z0}, {x1, 0, z0}, {x1, 0, z1}, {x0, 0, z1}}, {}}; }
+Polygon3 wall(double x0, double z0, double x1, double z1)
+{
+    return {{{x0, 0, z0}, {x1, 0, z0}, {x1, 0, z1}, {x0, 0, z1}}, {}};
+}
 
 struct Scene
 {
@@ -141,7 +144,8 @@ TEST(BuildNodes, AnAssetThatFillsItsTileGivesItsReflectanceAndAnOverlayTakesTheP
     const u32 balcony = scene.add(facade, ShapeOp::Insert);
     scene.tree.shapes[balcony].asset = 1;
     scene.tree.shapes[balcony].placement = AssetPlacement::Overlay;
-    scene.tree.shapes[balcony].worldFromAsset = glm::dmat4x3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(1.5, -0.4, 1));
+    scene.tree.shapes[balcony].worldFromAsset =
+        glm::dmat4x3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(1.5, -0.4, 1));
     const std::vector<AssetSummary> assets{{glm::dvec4(0.1), glm::dvec3(0.0)}, {glm::dvec4(0.9), glm::dvec3(0.0)}};
     const NodeTreeBuild build = buildNodes(scene.tree, assets);
     checkTree(build.tree);
@@ -166,4 +170,49 @@ TEST(BuildNodes, DegeneratePolygonsAreCountedNotKept)
 TEST(BuildNodes, AnEmptyDerivationIsAnEmptyTree)
 {
     EXPECT_EQ(buildNodes(Scene().tree, {}).tree.nodeCount(), 0u);
+}
+
+TEST(BuildNodes, AFaceThatIsThereTwiceIsCounted)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    for (int i = 0; i < 4; ++i) scene.addLeaf(facade, {wall(i, 0, i + 1, 3)});
+    const NodeTreeBuild good = buildNodes(scene.tree, {});
+    EXPECT_EQ(good.overlapCount, 0u);
+    EXPECT_LE(good.areaDefect, 1e-12);
+    scene.addLeaf(facade, {wall(1, 0, 2, 3)});
+    const NodeTreeBuild twice = buildNodes(scene.tree, {});
+    EXPECT_GE(twice.overlapCount, 1u);
+    EXPECT_GE(twice.areaDefect, 0.25 - 1e-12) << "15 m2 of wall in an outline of 12 m2, or more further down";
+}
+
+TEST(BuildNodes, TwentyThousandPlanesUnderOneShapeKeepTheirOrder)
+{
+    // Slats of 1 m x 0.1 m, one above the other, as one leaf's polygons and as leaves of their own. Each lies in its
+    // own plane but for the last one, which continues the first to the east.
+    constexpr u32 kCount = 20000;
+    const auto slat = [](double x, double z) {
+        return Polygon3{{{x, 0, z}, {x + 1, 0, z}, {x + 1, 0.1, z}, {x, 0.1, z}}, {}};
+    };
+    for (const bool oneLeaf : {true, false}) {
+        Scene scene;
+        const u32 face = scene.add(0, ShapeOp::Component);
+        std::vector<Polygon3> slats;
+        for (u32 i = 0; i < kCount; ++i) slats.push_back(slat(0, 0.01 * i));
+        slats.push_back(slat(1, 0));
+        if (oneLeaf)
+            scene.addLeaf(face, slats);
+        else
+            for (const Polygon3& polygon : slats) scene.addLeaf(face, {polygon});
+        const NodeTree tree = buildNodes(scene.tree, {}).tree;
+        ASSERT_EQ(tree.patchCount(), oneLeaf ? kCount : kCount + 1);
+        const u32 root = tree.nodeCount() - 1;
+        EXPECT_EQ(tree.nodes[root].kind, NodeKind::Cluster);
+        ASSERT_EQ(tree.nodes[root].childCount, kCount);
+        for (u32 i = 0; i < kCount; ++i)
+            ASSERT_NEAR(tree.nodes[tree.childrenOf(root)[i]].centroid.z, 0.01 * i, 1e-9) << i;
+        const Node& first = tree.nodes[tree.childrenOf(root)[0]];
+        EXPECT_NEAR(first.area, 0.2, 1e-12);
+        EXPECT_EQ(first.childCount, oneLeaf ? 0u : 2u);
+    }
 }

@@ -77,6 +77,11 @@ TEST_F(BakeCli, RefusesBadUsage)
     expectRefusal("town.geojson", "-o PACK is missing");
     expectRefusal("town.geojson -o p --fast", "--fast");
     expectRefusal("town.geojson -o p --jobs many", "--jobs");
+    expectRefusal("town.geojson -o p --jobs 1025", "--jobs");
+    expectRefusal("town.geojson -o p --jobs -1", "--jobs");
+    expectRefusal("town.geojson -o p --stats missing/s.json", "missing/s.json: cannot be written");
+    expectRefusal("town.geojson -o p --stats /", "/: cannot be written");
+    expectRefusal("town.geojson -o p --stats town.geojson/s.json", "there is no folder town.geojson");
     expectRefusal("town.geojson -o p --method wrong", "wrong");
     expectRefusal("town.geojson -o p --lat 91", "--lat");
     expectRefusal("town.geojson more -o p", "more");
@@ -97,6 +102,8 @@ TEST_F(BakeCli, RefusesBadInput)
     expectRefusal("list.geojson -o p", "list.geojson");
     put("cut.geojson", std::string(kTown).substr(0, 200));
     expectRefusal("cut.geojson -o p", "cut.geojson");
+    put("deep.geojson", std::string(200000, '['));
+    expectRefusal("deep.geojson -o p", "deep.geojson:1: byte 64: nests deeper than 64 levels");
     put("empty.geojson", R"({"type":"FeatureCollection","features":[]})");
     expectRefusal("empty.geojson -o p", "empty.geojson");
     put("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
@@ -264,9 +271,34 @@ TEST_F(BakeCli, StatisticsAgreeWithThePack)
     EXPECT_EQ(stats["patches"], pack->patchCount());
     EXPECT_EQ(stats["nodes"], pack->nodeCount());
     EXPECT_EQ(stats["links"], pack->tile().linkColumns.size());
+    EXPECT_EQ(stats["overlapping_nodes"], 0);
     EXPECT_LE(stats["area_ledger_defect"].get<double>(), 1e-5);
     EXPECT_GT(stats["peak_memory_mib"].get<double>(), 1.0);
     EXPECT_EQ(temp_.entryCount(), 3u) << "town, statistics, pack";
+}
+
+TEST_F(BakeCli, AFaceThatIsThereTwiceIsReported)
+{
+    put("scene.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\nf 1 2 3 4\n");
+    const std::string row = "wall,0,0,0,0,.5,.5,.5,0,0,0\n";
+    put("scene.csv", "kind,building,facade,floor,bay,rho_r,rho_g,rho_b,emit_r,emit_g,emit_b\n" + row + row);
+    const RunResult result = bake("scene.obj --surfaces scene.csv --rays 16 --stats s.json -o p");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("overlapping nodes    1"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("note: nodes: in 1 "), std::string::npos) << result.out;
+    const nlohmann::json stats = nlohmann::json::parse(*readTextFile(temp_ / "s.json"), nullptr, false);
+    EXPECT_EQ(stats["overlapping_nodes"], 1);
+    EXPECT_NEAR(stats["area_ledger_defect"].get<double>(), 1.0, 1e-6);
+}
+
+TEST_F(BakeCli, AFileThatGrowsTooLargeLeavesNothing)
+{
+    put("town.geojson", kTown);
+    const RunResult result = test::runProgram(
+        "/bin/bash", "-c 'ulimit -f 16; exec \"" HELIO_BAKE "\" town.geojson --rays 16 -o p'", temp_.path());
+    EXPECT_EQ(result.exitCode, 1) << result.err;
+    EXPECT_NE(result.err.find("p: cannot be written: File too large"), std::string::npos) << result.err;
+    EXPECT_EQ(temp_.entryCount(), 1u) << "the town alone";
 }
 
 TEST_F(BakeCli, CtrlCLeavesNothing)

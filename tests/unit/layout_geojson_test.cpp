@@ -129,7 +129,8 @@ TEST(GeoJson, TakesHeightsInOrder)
                                                square("odd", 700, 0, 10, R"("height":"ca. 12")"),
                                                square("minus", 700, 90, 10, R"("height":-3)"),
                                                square("diagonal", 15, 45, 10, R"("height":14)")};
-    const Layout layout = parse(collection(features), {.defaultHeight = 8.0, .storeyHeight = 3.2});
+    const Layout layout =
+        parse(collection(features), {.defaultHeight = 8.0, .storeyHeight = 3.2, .neighbourRadius = 50.0});
     EXPECT_EQ(byId(layout, "high").height, 21.5);
     EXPECT_EQ(byId(layout, "text").height, 12.0);
     EXPECT_DOUBLE_EQ(byId(layout, "levels").height, 17.0);
@@ -215,6 +216,28 @@ TEST(GeoJson, RefusesWhatIsNoCity)
                   .find("degrees"),
               std::string::npos);
     EXPECT_NE(errorOf(collection({square("a", 2e7, 0, 10)})).find("1e7"), std::string::npos);
+}
+
+TEST(GeoJson, DeepNestingIsAnError)
+{
+    const auto nested = [](size_t levels) {
+        return collection(
+            {square("a", 0, 0, 10, R"("height":)" + std::string(levels, '[') + std::string(levels, ']'))});
+    };
+    // Root, features, feature and properties come before it: 60 levels are the last ones that are read.
+    EXPECT_TRUE(hasNote(parse(nested(60)), "a", "height an array is not usable"));
+    const size_t tooMuch = nested(61).find("[[[[") + 60;
+    EXPECT_TRUE(errorOf(nested(61)).starts_with(concat("city.geojson:2: byte ", tooMuch, ": nests deeper than 64 ")));
+    EXPECT_NE(errorOf(nested(1000000)).find("deeper"), std::string::npos);
+    EXPECT_NE(errorOf(std::string(1000000, '[')).find("deeper"), std::string::npos);
+    EXPECT_TRUE(hasNote(parse(collection({square("a", 0, 0, 10, R"("height":{"m":3})")})), "a", "height an object is"));
+}
+
+TEST(GeoJson, AMissingHeightIsTheOptionUnlessNeighboursAreAskedFor)
+{
+    const std::string text = collection({square("low", 0, 0, 10, R"("height":6)"), square("none", 20, 0, 10)});
+    EXPECT_EQ(byId(parse(text, {.defaultHeight = 30.0}), "none").height, 30.0);
+    EXPECT_EQ(byId(parse(text, {.defaultHeight = 30.0, .neighbourRadius = 50.0}), "none").height, 6.0);
 }
 
 TEST(GeoJson, ReadsFilesAndNamesThemInErrors)

@@ -11,6 +11,7 @@
 
 #include "city/layout/builtin_city.h"
 #include "city/layout/polygon_repair.h"
+#include "city/model/materials.h"
 
 using namespace helio;
 
@@ -208,7 +209,13 @@ TEST(Ground, BecomesATreeOfBlocks)
 TEST(Ground, GreenReflectsMoreOfTheSunThanTheEyeSees)
 {
     EXPECT_GT(groundSurface("green").rho.a, solarFromRgb(glm::dvec3(groundSurface("green").rho)));
-    EXPECT_EQ(groundSurface("street").rho.a, 0.12);
+    EXPECT_EQ(groundSurface("street").rho, glm::dvec4(0.12));
+    EXPECT_EQ(groundSurface("pavement").rho, glm::dvec4(0.30));
+    EXPECT_EQ(groundSurface("court").rho.a, 0.25);
+    EXPECT_EQ(groundSurface("green").rho, glm::dvec4(0.10, 0.16, 0.07, 0.22));
+    EXPECT_EQ(groundSurface("nothing known").rho, glm::dvec4(0.20));
+    for (const char* kind : {"street", "pavement", "court", "green", "square", "water", "gravel"})
+        EXPECT_EQ(groundSurface(kind).rho, findMaterial(kind)) << kind;
 }
 
 } // namespace

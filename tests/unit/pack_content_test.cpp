@@ -69,9 +69,11 @@ struct Built
 {
     NodeTreeBuild nodes;
     PackContent content;
+    bool fits = false;
+    std::string message{};
 };
 
-Built buildSample()
+Built buildSample(const ContentLimits& limits = {})
 {
     const std::vector<AssetMesh> meshes = {triangleAsset(9, glm::dvec4(0)), triangleAsset(1, {0.2, 0.2, 0.2, 0.3}),
                                            triangleAsset(0.25f, glm::dvec4(0))};
@@ -84,7 +86,12 @@ Built buildSample()
     light.sky.rowBegin = {0, 1, 2, 3};
     light.sky.column = {0, 0, 0};
     light.sky.factor = {0.5f, 0.5f, 1.0f};
-    built.content = buildContent(built.nodes, meshes, std::move(light));
+    Result<PackContent> content = buildContent(built.nodes, meshes, std::move(light), limits);
+    built.fits = content.ok();
+    if (content)
+        built.content = std::move(*content);
+    else
+        built.message = content.error().message;
     return built;
 }
 
@@ -93,6 +100,23 @@ TEST(PackContent, IsValid)
     const Built built = buildSample();
     const Status status = validateTile(built.content.view(), built.content.index, {});
     EXPECT_TRUE(status.ok()) << status.error().message;
+}
+
+TEST(PackContent, MoreThanATileHoldsIsAnError)
+{
+    // Drawn are the wall (4 corners), the ground with its hole (8) and two assets of one triangle each.
+    const Built all = buildSample();
+    ASSERT_TRUE(all.fits);
+    const size_t corners = all.content.outlinePoints.size(), vertices = all.content.vertices.size();
+    EXPECT_EQ(vertices, 4u + 8u + 3u + 3u);
+    EXPECT_TRUE(buildSample({.corners = corners}).fits);
+    EXPECT_TRUE(buildSample({.vertices = vertices}).fits);
+    const Built few = buildSample({.corners = corners - 1});
+    EXPECT_FALSE(few.fits);
+    EXPECT_NE(few.message.find("too many corners for one tile"), std::string::npos) << few.message;
+    EXPECT_NE(buildSample({.vertices = vertices - 1}).message.find("too many vertices"), std::string::npos);
+    EXPECT_NE(buildSample({.indices = all.content.indices.size() - 1}).message.find("too many indices"),
+              std::string::npos);
 }
 
 TEST(PackContent, PatchesCarrySurfaceOrAsset)

@@ -224,6 +224,29 @@ TEST(PackIndexText, AnotherVersionIsNamed)
               "index: byte 16: version 9 of the format, this program reads version 1; bake the pack again");
 }
 
+/// Puts the right checksum into the last line.
+void seal(std::string& text)
+{
+    const u64 checksum = hashText(std::string_view(text).substr(0, text.rfind("xxh3")));
+    for (size_t i = 0; i < 16; ++i) text[text.size() - 17 + i] = "0123456789abcdef"[(checksum >> (60 - 4 * i)) & 15];
+}
+
+TEST(PackIndexText, ValuesThatCannotBeReadAreErrors)
+{
+    const std::string good = encodeIndex(samplePack().index, {1, 2});
+    const auto errorWith = [&](const std::string& latitude) {
+        std::string text = good;
+        text.replace(text.find("51.9"), 4, latitude);
+        seal(text);
+        const Result<IndexText> read = decodeIndex(text, "index");
+        EXPECT_FALSE(read.ok()) << latitude.substr(0, 20);
+        return read.ok() ? "" : read.error().message;
+    };
+    EXPECT_NE(errorWith("1e999").find("cannot be read"), std::string::npos);
+    EXPECT_NE(errorWith("nought").find("not JSON"), std::string::npos);
+    EXPECT_NE(errorWith("1, \"options\": " + std::string(1000000, '[')).find("nests deeper"), std::string::npos);
+}
+
 TEST(PackIndexText, AMemberOfAnotherTypeIsNamed)
 {
     std::string text = encodeIndex(samplePack().index, {1, 2});
@@ -231,8 +254,7 @@ TEST(PackIndexText, AMemberOfAnotherTypeIsNamed)
     text.replace(text.find("51.9"), 4, "\"x\" ");
     text += concat("xxh3 ", std::string(16, '0'), "\n");
     EXPECT_NE(decodeIndex(text, "index").error().message.find("checksum"), std::string::npos);
-    const u64 checksum = hashText(std::string_view(text).substr(0, text.rfind("xxh3")));
-    for (size_t i = 0; i < 16; ++i) text[text.size() - 17 + i] = "0123456789abcdef"[(checksum >> (60 - 4 * i)) & 15];
+    seal(text);
     EXPECT_NE(decodeIndex(text, "index").error().message.find("\"latitude_deg\""), std::string::npos);
 }
 

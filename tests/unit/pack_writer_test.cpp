@@ -88,12 +88,29 @@ TEST(PackWriter, ReplacesAPackAndNothingElse)
 
 TEST(PackWriter, AnInterruptedWriteLeavesNothing)
 {
-    const TempFolder temp;
-    int calls = 0;
-    const Status written = writePack(samplePack(), temp / "p", {false, [&] { return ++calls > 3; }});
-    ASSERT_FALSE(written.ok());
-    EXPECT_NE(written.error().message.find("interrupted"), std::string::npos);
-    EXPECT_EQ(temp.entryCount(), 0u);
+    PackContent content = samplePack(); // A name of 20 MiB: its section is written in several chunks.
+    content.surfaceNames = std::string(size_t(20) << 20, 'x') + "\nstreet\n";
+    int needed = 0;
+    {
+        const TempFolder temp;
+        ASSERT_TRUE(writePack(content, temp / "p", {false, [&] { return ++needed, false; }}).ok());
+    }
+    EXPECT_GT(needed, 20) << "table, index, most of the sections and the chunks of one of them";
+    for (const bool replacing : {false, true}) {
+        for (int last = 0; last < needed; ++last) {
+            const TempFolder temp;
+            if (replacing) {
+                ASSERT_TRUE(writePack(samplePack(), temp / "p").ok());
+            }
+            const std::string before = replacing ? textOf(temp / "p/tile-0000") : "";
+            int calls = 0;
+            const Status written = writePack(content, temp / "p", {false, [&] { return ++calls > last; }});
+            ASSERT_FALSE(written.ok());
+            EXPECT_NE(written.error().message.find("interrupted"), std::string::npos);
+            ASSERT_EQ(temp.entryCount(), replacing ? 1u : 0u) << "interrupted at " << last;
+            EXPECT_EQ(replacing ? textOf(temp / "p/tile-0000") : "", before);
+        }
+    }
 }
 
 TEST(PackWriter, RefusesWhatAReaderWouldRefuse)
@@ -103,6 +120,10 @@ TEST(PackWriter, RefusesWhatAReaderWouldRefuse)
     content.linkColumns[0] = 77;
     EXPECT_FALSE(writePack(content, temp / "p").ok());
     EXPECT_EQ(temp.entryCount(), 0u);
+    const Status good = checkContent(content, "p");
+    ASSERT_FALSE(good.ok());
+    EXPECT_NE(good.error().message.find("p: not written, the bake is faulty"), std::string::npos);
+    EXPECT_TRUE(checkContent(samplePack(), "p").ok());
 }
 
 TEST(PackOpen, SaysWhatIsWrongWithAFolder)

@@ -53,7 +53,8 @@ TEST(Polygon, CentroidOfASquareWithAHole)
 
 TEST(Polygon, PlaneFrameIsRightHanded)
 {
-    for (const glm::dvec3 n : {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::normalize(glm::dvec3(1, -2, 3))}) {
+    for (const glm::dvec3 n :
+         {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::normalize(glm::dvec3(1, -2, 3))}) {
         const PlaneFrame f = planeFrame(n);
         EXPECT_NEAR(glm::length(glm::cross(f.u, f.v) - n), 0.0, 1e-12);
     }
@@ -67,7 +68,8 @@ TEST(Triangulate, ConcaveOutline)
 TEST(Triangulate, HolesWhicheverWayTheyRun)
 {
     for (const bool clockwise : {true, false}) {
-        Polygon2 p{square(0, 0, 10, false), {square(1, 1, 2, clockwise), square(5, 5, 3, clockwise), square(1, 6, 2, clockwise)}};
+        Polygon2 p{square(0, 0, 10, false),
+                   {square(1, 1, 2, clockwise), square(5, 5, 3, clockwise), square(1, 6, 2, clockwise)}};
         EXPECT_NEAR(areaOf(p), 100.0 - 4.0 - 9.0 - 4.0, 1e-9);
     }
 }
@@ -92,4 +94,21 @@ TEST(ConvexHull, DropsInnerAndCollinearPoints)
     const Ring2 hull = convexHull(points);
     EXPECT_EQ(hull.size(), 4u);
     EXPECT_NEAR(signedArea(hull), 4.0, 1e-12);
+}
+
+TEST(Polygon, CrossIsTwiceTheAreaOfTheTriangle)
+{
+    EXPECT_EQ(cross(glm::dvec2(2, 0), glm::dvec2(1, 3)), 6.0);
+    EXPECT_EQ(cross(glm::dvec2(1, 3), glm::dvec2(2, 0)), -6.0);
+    EXPECT_EQ(cross(glm::dvec2(5, 5), glm::dvec2(7, 5), glm::dvec2(6, 8)), 6.0);
+}
+
+TEST(Polygon, ContainsGoesByEvenAndOdd)
+{
+    const Ring2 angle = {{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {0, 1}};
+    EXPECT_TRUE(contains(angle, {0.5, 0.5}));
+    EXPECT_TRUE(contains(angle, {3.5, 3.5}));
+    EXPECT_FALSE(contains(angle, {1, 3}));
+    EXPECT_FALSE(contains(angle, {5, 0.5}));
+    EXPECT_FALSE(contains(angle, {-1, 0.5}));
 }

@@ -67,6 +67,7 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->capture_default_str();
     app.add_option("--seed", bake.light.seed, "seed of every random choice")->capture_default_str();
     app.add_option("--jobs", bake.light.jobs, "threads; 0 = all cores; the pack does not depend on it")
+        ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
     app.add_option("--method", line.method, "how links are made: heliopolis, paper or paper-literal")
         ->check(CLI::IsMember({"heliopolis", "paper", "paper-literal"}))
@@ -96,6 +97,8 @@ int runBake(CommandLine& line)
     if (line.output.empty()) return complain("-o PACK is missing: where shall the pack go? See --help", kBadInput);
     // A bad target shows before the work, not after it.
     if (Status status = checkPackTarget(line.output); !status) return complain(status.error().message, kBadInput);
+    if (!line.stats.empty())
+        if (Status status = checkFileTarget(line.stats); !status) return complain(status.error().message, kBadInput);
 
     for (const std::string& text : line.attributes) {
         const size_t equals = text.find('=');
@@ -113,20 +116,23 @@ int runBake(CommandLine& line)
         return complain(result.error().message, kBadInput);
     }
     progress.show("writing", 0.0);
+    if (Status good = checkContent(result->content, line.output); !good) {
+        progress.clear();
+        return complain(good.error().message, kInternal);
+    }
+    const double peak = peakMemoryMiB();
     {
         const InterruptGuard guard;
         Status written =
             writePack(result->content, line.output, {line.zstd, [] { return InterruptGuard::caught() != 0; }});
+        if (written && !line.stats.empty() && InterruptGuard::caught() == 0)
+            written = writeTextAtomically(line.stats, statsJson(result->stats, peak));
         progress.clear();
         if (InterruptGuard::caught() != 0) dieOf(InterruptGuard::caught());
         if (!written) return complain(written.error().message, kBadInput);
     }
-    const double peak = peakMemoryMiB();
     std::printf("%s: baked from %s\n%s", line.output.c_str(), result->content.index.source.c_str(),
                 statsText(result->stats, peak).c_str());
-    if (line.stats.empty()) return kOk;
-    if (Status status = writeTextAtomically(line.stats, statsJson(result->stats, peak)); !status)
-        return complain(status.error().message, kBadInput);
     return kOk;
 }
 
@@ -134,8 +140,12 @@ int runExport(const CommandLine& line)
 {
     const Result<Pack> pack = Pack::open(line.pack);
     if (!pack) return complain(pack.error().message, kBadInput);
-    if (Status status = writeSurfaces(*pack, line.surfaces); !status)
-        return complain(status.error().message, kBadInput);
+    {
+        const InterruptGuard guard;
+        Status written = writeSurfaces(*pack, line.surfaces);
+        if (InterruptGuard::caught() != 0) dieOf(InterruptGuard::caught());
+        if (!written) return complain(written.error().message, kBadInput);
+    }
     std::printf("%s.obj, %s.csv: %u patches\n", line.surfaces.c_str(), line.surfaces.c_str(), pack->patchCount());
     return kOk;
 }

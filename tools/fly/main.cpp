@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // heliopolis-fly: a window on a baked city.
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 
 #include "tools/fly/app.h"
@@ -78,6 +80,8 @@ int run(int argc, char** argv)
     if (!readSize(size, options.width, options.height))
         return complain(concat("--size ", size, ": expected WIDTHxHEIGHT, 16 to 16384 each"), kBadInput);
     if (!sun.empty()) options.sun = {sun[0], sun[1]};
+    for (const double number : {options.sun.x, options.sun.y, options.dni, options.dhi})
+        if (!std::isfinite(number)) return complain("--sun, --dni and --dhi must be finite numbers", kBadInput);
     if (!script.empty()) {
         Result<std::vector<ScriptStep>> steps = parseScript(script);
         if (!steps) return complain(steps.error().message, kBadInput);
@@ -94,7 +98,7 @@ int run(int argc, char** argv)
     const std::unique_ptr<FlyApp> fly = FlyApp::open(options, failure);
     if (!fly) return complain(failure.message, failure.badInput ? kBadInput : kInternal);
     std::cout << "Device: " << fly->describe() << std::endl;
-    if (const Status done = fly->run(); !done) return complain(done.error().message, kInternal);
+    if (const Status done = fly->run(); !done) return complain(done.error().message, kBadInput);
     const std::vector<std::string> messages = fly->messages();
     for (const std::string& message : messages) std::cerr << message << std::endl;
     return messages.empty() ? kOk : complain(concat(messages.size(), " validation messages"), kInternal);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 
 #include "city/base/file.h"
@@ -99,6 +100,10 @@ int runMain(int argc, char** argv)
     if (!parsed) return complain(parsed.error().message, kBadInput);
     if (done) return kOk;
     const RenderOptions& o = *parsed;
+    for (const std::string& output : {o.png, o.exr, o.table})
+        if (const Status free = output.empty() ? Nothing{} : checkFileTarget(output); !free)
+            return complain(free.error().message, kBadInput);
+    std::signal(SIGXFSZ, SIG_IGN); // A file that grows too large is a failed write, reported as such.
 
     Steps steps;
     const Result<Pack> pack = Pack::open(o.pack);

@@ -58,9 +58,12 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     app.add_option("--camera", o.camera, "aerial, street, top, or x,y,z,tx,ty,tz[,fov] (m, vertical degrees)")
         ->capture_default_str();
     app.add_option("--size", size, "WIDTHxHEIGHT of the picture, pixels")->capture_default_str();
-    auto* residual = app.add_option("--residual", o.residual, "sweep until the relative residual is at most this")
-                         ->check(CLI::Range(1e-7, 1.0))
-                         ->capture_default_str();
+    auto* residual =
+        app.add_option(
+               "--residual", o.residual,
+               "sweep until the relative residual is at most this, and the error estimated from its fall half of it")
+            ->check(CLI::Range(1e-7, 1.0))
+            ->capture_default_str();
     app.add_option("--iterations", o.sweeps, "make exactly this many sweeps instead")
         ->check(CLI::Range(1u, 100000u))
         ->excludes(residual);

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built heliopolis-render and heliopolis-bench, run as a user runs them: bad input gets one line and exit code 1
+// and leaves nothing behind; good input gives the pictures and tables that were asked for, twice the same bytes.
+#include <cmath>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "city/base/file.h"
+#include "city/format/pack.h"
+#include "tests/support/image_file.h"
+#include "tests/unit/cli_runner.h"
+
+namespace helio {
+namespace {
+
+using test::RunResult;
+using test::TempFolder;
+
+/// Small picture, coarse sun raster: what is tested here does not depend on either.
+const std::string kQuick = "p --size 64x36 --samples 1 --sun-texel 0.25 ";
+
+std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+class RenderCli : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        const std::string scene = HELIO_SCENES "/twobox";
+        const RunResult baked =
+            test::runProgram(HELIO_BAKE, scene + ".obj --surfaces " + scene + ".csv --rays 16 -o p", temp_.path());
+        ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    }
+
+    RunResult render(const std::string& arguments) const
+    {
+        return test::runProgram(HELIO_RENDER, arguments, temp_.path());
+    }
+
+    std::string bytesOf(const std::string& name) const
+    {
+        Result<std::string> text = readTextFile(temp_ / name);
+        EXPECT_TRUE(text.ok()) << name;
+        return text ? *text : "";
+    }
+
+    void put(const std::string& name, const std::string& text) const
+    {
+        ASSERT_TRUE(writeTextAtomically(temp_ / name, text).ok());
+    }
+
+    /// One line that holds `what`, exit code 1, and no file more than before.
+    void expectRefusal(const std::string& arguments, const std::string& what,
+                       const std::string& program = HELIO_RENDER) const
+    {
+        const size_t before = temp_.entryCount();
+        const RunResult result = test::runProgram(program, arguments, temp_.path());
+        EXPECT_EQ(result.exitCode, 1) << arguments;
+        EXPECT_EQ(result.errorLines(), 1u) << arguments << ": " << result.err;
+        EXPECT_EQ(result.err.rfind("heliopolis-", 0), 0u) << result.err;
+        EXPECT_NE(result.err.find(what), std::string::npos) << arguments << ": " << result.err;
+        EXPECT_EQ(result.out, "") << arguments;
+        EXPECT_EQ(temp_.entryCount(), before) << arguments << " left something behind";
+    }
+
+    TempFolder temp_;
+};
+
+TEST_F(RenderCli, HelpSaysUnitsAndExitsWithZero)
+{
+    const RunResult result = render("--help");
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* word :
+         {"--sun", "degrees", "--dni", "W/m2", "--residual", "--camera", "--table", "--view", "pixels"})
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+}
+
+TEST_F(RenderCli, RefusesBadUsage)
+{
+    expectRefusal("", "PACK");
+    expectRefusal("p", "nothing to do");
+    expectRefusal("p -o a.png --wobble", "--wobble");
+    expectRefusal("p more -o a.png", "more");
+    for (const char* sun : {"180", "180,91", "south,45", "180,45,3", "nan,45", "180,inf", "361,45", ""})
+        expectRefusal(std::string("p -o a.png --sun '") + sun + "'", "--sun");
+    for (const char* size : {"64", "0x36", "64x-1", "64x36x3", "99999x36", "axb"})
+        expectRefusal(std::string("p -o a.png --size ") + size, "--size");
+    for (const char* camera : {"bird", "1,2,3", "1,2,3,4,5", "1,2,3,1,2,3", "0,0,1,0,1,1,180", "0,0,nan,0,1,1"})
+        expectRefusal(std::string("p -o a.png --camera ") + camera, camera);
+    for (const char* option : {"--view x-ray", "--sky cloudy", "--per house", "--samples 5", "--dni -1", "--dhi nan",
+                               "--residual 0", "--sun-texel -1", "--exposure 99", "--size", "-o b.png -o c.png"})
+        expectRefusal(std::string("p -o a.png ") + option, split(option, ' ')[0]);
+    for (const char* sweeps : {"0", "-1", "two", "2.5"})
+        expectRefusal(std::string("p --table t.csv --iterations ") + sweeps, "--iterations");
+    expectRefusal("p --table t.csv --iterations 2 --residual 0.1", "--residual");
+}
+
+TEST_F(RenderCli, RefusesWhatIsNotAPack)
+{
+    expectRefusal("none -o a.png", "none");
+    std::filesystem::create_directory(temp_ / "empty");
+    expectRefusal("empty -o a.png", "empty");
+    put("file", "hello\n");
+    expectRefusal("file -o a.png", "file");
+}
+
+TEST_F(RenderCli, RefusesDamagedPacks)
+{
+    const std::string index = bytesOf("p/index"), tile = bytesOf("p/tile-0000");
+    std::string flipped = tile, version = tile, indexVersion = index;
+    flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
+    version[8] = 2;
+    indexVersion.replace(indexVersion.find("1\n"), 1, "2");
+    struct Damage
+    {
+        std::string index, tile;
+        const char* what;
+    };
+    std::filesystem::create_directory(temp_ / "q");
+    for (const Damage& damage :
+         {Damage{index, tile.substr(0, tile.size() - 1), "its header says"},
+          Damage{index, tile.substr(0, 40), "ends inside the header"}, Damage{index, "", "tile-0000"},
+          Damage{index, flipped, "the checksum"}, Damage{index, version, "version 2"},
+          Damage{indexVersion, tile, "version 2"}, Damage{index.substr(0, 99), tile, "checksum line"},
+          Damage{"{}", tile, "this is not the index"}}) {
+        put("q/index", damage.index);
+        put("q/tile-0000", damage.tile);
+        expectRefusal("q -o a.png --table t.csv", damage.what);
+    }
+}
+
+TEST_F(RenderCli, RefusesFacesWhereThereAreNone)
+{
+    put("town.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"height":9},
+        "geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]]]}}]})");
+    const RunResult baked = test::runProgram(HELIO_BAKE, "town.geojson --rays 16 -o town", temp_.path());
+    ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    expectRefusal("town --per face --table t.csv", "--per patch");
+}
+
+TEST_F(RenderCli, RefusesPlacesWhereNothingCanBeWritten)
+{
+    for (const char* target : {"none/a", "p", "p/index/a"})
+        for (const char* option : {"-o", "--exr", "--table"})
+            expectRefusal(kQuick + option + " " + target, std::string(target) + ": cannot be written");
+    expectRefusal(kQuick + "-o a.png --exr a.exr --table none/t.csv", "none/t.csv");
+}
+
+TEST_F(RenderCli, AFileThatGrowsTooLargeLeavesNothing)
+{
+    const size_t before = temp_.entryCount();
+    const RunResult result = test::runProgram(
+        "/bin/bash", "-c 'ulimit -f 1; exec \"" HELIO_RENDER "\" " + kQuick + "--table t.csv'", temp_.path());
+    EXPECT_EQ(result.exitCode, 1) << result.err;
+    EXPECT_EQ(result.errorLines(), 1u) << result.err;
+    EXPECT_NE(result.err.find("t.csv: cannot be written: File too large"), std::string::npos) << result.err;
+    EXPECT_EQ(temp_.entryCount(), before);
+}
+
+TEST_F(RenderCli, WritesPicturesOfTheSizeAskedFor)
+{
+    const RunResult result = render(kQuick + "-o a.png --exr a.exr");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(temp_.entryCount(), 3u) << "pack and two pictures";
+    for (const char* name : {"a.png", "a.exr"}) {
+        const Result<TestImage> image = readTestImage(temp_ / name);
+        ASSERT_TRUE(image.ok()) << image.error().message;
+        EXPECT_EQ(image->width, 64u);
+        EXPECT_EQ(image->height, 36u);
+        const auto [low, high] = std::minmax_element(image->rgb.begin(), image->rgb.end());
+        EXPECT_LT(*low, *high) << name << " is of one colour";
+    }
+}
+
+TEST_F(RenderCli, TableHasARowAPatch)
+{
+    // Enough sweeps that E_indirect and B belong to the same solution.
+    const RunResult result = render(kQuick + "--iterations 40 --table t.csv --dni 700 --dhi 90");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(temp_.entryCount(), 2u);
+    const Result<Pack> pack = Pack::open(temp_ / "p");
+    ASSERT_TRUE(pack.ok());
+    const std::vector<std::string> lines = split(bytesOf("t.csv"), '\n');
+    ASSERT_EQ(lines.size(), 2u + pack->patchCount());
+    EXPECT_EQ(lines[0].rfind("# ", 0), 0u);
+    for (const char* word : {"m2", "W/m2", "residual ", "after 40 sweeps", "DNI 700", "DHI 90"})
+        EXPECT_NE(lines[0].find(word), std::string::npos) << word << " in " << lines[0];
+    EXPECT_EQ(lines[1], "patch,building,area,E_sun_r,E_sun_g,E_sun_b,E_sun_solar,E_sky_r,E_sky_g,E_sky_b,E_sky_solar,"
+                        "E_indirect_r,E_indirect_g,E_indirect_b,E_indirect_solar,B_r,B_g,B_b,B_solar");
+    double largestIndirect = 0.0;
+    for (u32 i = 0; i < pack->patchCount(); ++i) {
+        const std::vector<std::string> fields = split(lines[2 + i], ',');
+        ASSERT_EQ(fields.size(), 19u) << lines[2 + i];
+        const gpu::PatchRecord& patch = pack->tile().patches[i];
+        EXPECT_EQ(fields[0], std::to_string(i));
+        EXPECT_EQ(std::stol(fields[1]), patch.building == gpu::kNone ? -1 : long(patch.building));
+        EXPECT_EQ(std::stof(fields[2]), patch.area);
+        for (u32 c = 0; c < 4; ++c) {
+            const auto at = [&](u32 quantity) { return std::stod(fields[3 + 4 * quantity + c]); };
+            EXPECT_LE(at(0), 700.0 * (1 + 1e-6)) << "no patch gets more than the sun sends";
+            EXPECT_LE(at(1), 90.0 * (1 + 1e-6)) << "nor more than the open sky";
+            // B = emission + rho E, the definition of radiosity.
+            const double b = double(patch.emission[int(c)]) + double(patch.rho[int(c)]) * (at(0) + at(1) + at(2));
+            EXPECT_NEAR(at(3), b, 1e-4 * (1.0 + b)) << "patch " << i << " channel " << c;
+            largestIndirect = std::max(largestIndirect, at(2));
+        }
+    }
+    EXPECT_GT(largestIndirect, 1.0);
+}
+
+TEST_F(RenderCli, TableHasARowAFace)
+{
+    ASSERT_EQ(render(kQuick + "--per face --table t.csv").exitCode, 0);
+    const std::vector<std::string> lines = split(bytesOf("t.csv"), '\n');
+    // twobox.csv has a header and one line a face.
+    const size_t faces = split(*readTextFile(HELIO_SCENES "/twobox.csv"), '\n').size() - 1;
+    ASSERT_EQ(lines.size(), 2 + faces);
+    EXPECT_EQ(lines[1].rfind("face,building,area,E_sun_r,", 0), 0u) << lines[1];
+}
+
+TEST_F(RenderCli, TwoRunsGiveTheSameBytes)
+{
+    ASSERT_EQ(render(kQuick + "-o a.png --exr a.exr --table a.csv").exitCode, 0);
+    ASSERT_EQ(render(kQuick + "-o b.png --exr b.exr --table b.csv").exitCode, 0);
+    for (const char* type : {".png", ".exr", ".csv"})
+        EXPECT_TRUE(bytesOf(std::string("a") + type) == bytesOf(std::string("b") + type)) << type;
+    ASSERT_EQ(render(kQuick + "-o c.png --table c.csv --sun 120,30").exitCode, 0);
+    for (const char* type : {".png", ".csv"})
+        EXPECT_FALSE(bytesOf(std::string("a") + type) == bytesOf(std::string("c") + type)) << type;
+}
+
+TEST_F(RenderCli, BenchReports)
+{
+    const RunResult result = test::runProgram(
+        HELIO_BENCH, "p --json r.json --repeats 2 --size 64x36 --sun-texel 0.25 --copy 1", temp_.path());
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const Result<Pack> pack = Pack::open(temp_ / "p");
+    ASSERT_TRUE(pack.ok());
+    for (const std::string& word :
+         {concat(pack->patchCount(), " patches"), concat(pack->tile().linkColumns.size(), " links"),
+          std::string("triangles"), std::string("median"), std::string("pack open"), std::string("sun change, cold"),
+          std::string("sun raster"), std::string("gather"), std::string("one warm sweep"), std::string("camera move"),
+          std::string("stream copy"), std::string("GB/s")})
+        EXPECT_NE(result.out.find(word), std::string::npos) << word << " in\n" << result.out;
+    const nlohmann::json json = nlohmann::json::parse(bytesOf("r.json"), nullptr, false);
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json["context"]["patches"], std::to_string(pack->patchCount()));
+    EXPECT_TRUE(json["context"].contains("device"));
+    EXPECT_GT(json["benchmarks"].size(), 5u);
+    for (const auto& entry : json["benchmarks"]) EXPECT_GE(entry["real_time"].get<double>(), 0.0) << entry.dump();
+    EXPECT_EQ(temp_.entryCount(), 2u) << "pack and report";
+
+    EXPECT_EQ(test::runProgram(HELIO_BENCH, "--help", temp_.path()).exitCode, 0);
+    expectRefusal("none", "none", HELIO_BENCH);
+    expectRefusal("p --wobble", "--wobble", HELIO_BENCH);
+    expectRefusal("p --json none/r.json", "none/r.json", HELIO_BENCH);
+    expectRefusal("p --repeats 0", "--repeats", HELIO_BENCH);
+}
+
+} // namespace
+} // namespace helio

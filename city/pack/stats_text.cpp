@@ -73,6 +73,11 @@ std::string statsText(const BakeStats& stats, double peakMiB)
     rangeLine(text, "sky by rays", stats.light.sky);
     line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * stats.light.closureDefect,
          std::abs(stats.light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
+    if (stats.light.insidePatchCount > 0)
+        line(text, "  %-20s %u patches, %.2f %% of the area: party walls and what stands inside a neighbour; not in the "
+                   "sums above", "inside", stats.light.insidePatchCount, 100.0 * stats.light.insideAreaShare);
+    line(text, "  %-20s error a link may leave %.3g, rays %u a patch, %u a link", "thresholds",
+         stats.light.formFactorEpsilon, stats.light.raysPerPatch, stats.light.raysPerLink);
     line(text, "  %-20s %.2e", "area-ledger defect", stats.areaDefect);
     if (stats.overlappingNodes > 0)
         line(text, "  %-20s %u (their children have more area than their outline)", "overlapping nodes",
@@ -108,6 +113,10 @@ std::string statsJson(const BakeStats& stats, double peakMiB)
     json["row_sum_rays"] = rangeJson(stats.light.rayRowSum);
     json["sky_rays"] = rangeJson(stats.light.sky);
     json["closure_defect"] = stats.light.closureDefect;
+    json["inside_patches"] = stats.light.insidePatchCount;
+    json["inside_area_share"] = stats.light.insideAreaShare;
+    json["error_a_link_may_leave"] = stats.light.formFactorEpsilon;
+    json["rays_per_link"] = stats.light.raysPerLink;
     json["area_ledger_defect"] = stats.areaDefect;
     json["overlapping_nodes"] = stats.overlappingNodes;
     json["dropped_polygons"] = stats.degeneratePolygons;

@@ -35,7 +35,7 @@ protected:
     {
         const std::string scene = HELIO_SCENES "/twobox";
         const RunResult baked =
-            test::runProgram(HELIO_BAKE, scene + ".obj --surfaces " + scene + ".csv --rays 16 -o p", temp_.path());
+            test::runProgram(HELIO_BAKE, concat(scene, ".obj --surfaces ", scene, ".csv --rays 16 -o p"), temp_.path());
         ASSERT_EQ(baked.exitCode, 0) << baked.err;
     }
 
@@ -90,16 +90,17 @@ TEST_F(RenderCli, RefusesBadUsage)
     expectRefusal("p -o a.png --wobble", "--wobble");
     expectRefusal("p more -o a.png", "more");
     for (const char* sun : {"180", "180,91", "south,45", "180,45,3", "nan,45", "180,inf", "361,45", ""})
-        expectRefusal(std::string("p -o a.png --sun '") + sun + "'", "--sun");
+        expectRefusal(concat("p -o a.png --sun '", sun, "'"), "--sun");
     for (const char* size : {"64", "0x36", "64x-1", "64x36x3", "99999x36", "axb"})
-        expectRefusal(std::string("p -o a.png --size ") + size, "--size");
+        expectRefusal(concat("p -o a.png --size ", size), "--size");
     for (const char* camera : {"bird", "1,2,3", "1,2,3,4,5", "1,2,3,1,2,3", "0,0,1,0,1,1,180", "0,0,nan,0,1,1"})
-        expectRefusal(std::string("p -o a.png --camera ") + camera, camera);
+        expectRefusal(concat("p -o a.png --camera ", camera), camera);
     for (const char* option : {"--view x-ray", "--sky cloudy", "--per house", "--samples 5", "--dni -1", "--dhi nan",
+                               "--dni nan", "--residual nan", "--exposure nan", "--sun-texel nan", "--dhi inf",
                                "--residual 0", "--sun-texel -1", "--exposure 99", "--size", "-o b.png -o c.png"})
-        expectRefusal(std::string("p -o a.png ") + option, split(option, ' ')[0]);
+        expectRefusal(concat("p -o a.png ", option), split(option, ' ')[0]);
     for (const char* sweeps : {"0", "-1", "two", "2.5"})
-        expectRefusal(std::string("p --table t.csv --iterations ") + sweeps, "--iterations");
+        expectRefusal(concat("p --table t.csv --iterations ", sweeps), "--iterations");
     expectRefusal("p --table t.csv --iterations 2 --residual 0.1", "--residual");
 }
 
@@ -118,7 +119,7 @@ TEST_F(RenderCli, RefusesDamagedPacks)
     std::string flipped = tile, version = tile, indexVersion = index;
     flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
     version[8] = 2;
-    indexVersion.replace(indexVersion.find("1\n"), 1, "2");
+    indexVersion[indexVersion.find("1\n")] = '2';
     struct Damage
     {
         std::string index, tile;
@@ -150,7 +151,7 @@ TEST_F(RenderCli, RefusesPlacesWhereNothingCanBeWritten)
 {
     for (const char* target : {"none/a", "p", "p/index/a"})
         for (const char* option : {"-o", "--exr", "--table"})
-            expectRefusal(kQuick + option + " " + target, std::string(target) + ": cannot be written");
+            expectRefusal(concat(kQuick, option, " ", target), concat(target, ": cannot be written"));
     expectRefusal(kQuick + "-o a.png --exr a.exr --table none/t.csv", "none/t.csv");
 }
 
@@ -158,7 +159,7 @@ TEST_F(RenderCli, AFileThatGrowsTooLargeLeavesNothing)
 {
     const size_t before = temp_.entryCount();
     const RunResult result = test::runProgram(
-        "/bin/bash", "-c 'ulimit -f 1; exec \"" HELIO_RENDER "\" " + kQuick + "--table t.csv'", temp_.path());
+        "/bin/bash", concat("-c 'ulimit -f 1; exec \"" HELIO_RENDER "\" ", kQuick, "--table t.csv'"), temp_.path());
     EXPECT_EQ(result.exitCode, 1) << result.err;
     EXPECT_EQ(result.errorLines(), 1u) << result.err;
     EXPECT_NE(result.err.find("t.csv: cannot be written: File too large"), std::string::npos) << result.err;
@@ -232,10 +233,10 @@ TEST_F(RenderCli, TwoRunsGiveTheSameBytes)
     ASSERT_EQ(render(kQuick + "-o a.png --exr a.exr --table a.csv").exitCode, 0);
     ASSERT_EQ(render(kQuick + "-o b.png --exr b.exr --table b.csv").exitCode, 0);
     for (const char* type : {".png", ".exr", ".csv"})
-        EXPECT_TRUE(bytesOf(std::string("a") + type) == bytesOf(std::string("b") + type)) << type;
+        EXPECT_TRUE(bytesOf(concat("a", type)) == bytesOf(concat("b", type))) << type;
     ASSERT_EQ(render(kQuick + "-o c.png --table c.csv --sun 120,30").exitCode, 0);
     for (const char* type : {".png", ".csv"})
-        EXPECT_FALSE(bytesOf(std::string("a") + type) == bytesOf(std::string("c") + type)) << type;
+        EXPECT_FALSE(bytesOf(concat("a", type)) == bytesOf(concat("c", type))) << type;
 }
 
 TEST_F(RenderCli, BenchReports)
@@ -265,6 +266,8 @@ TEST_F(RenderCli, BenchReports)
     expectRefusal("p --wobble", "--wobble", HELIO_BENCH);
     expectRefusal("p --json none/r.json", "none/r.json", HELIO_BENCH);
     expectRefusal("p --repeats 0", "--repeats", HELIO_BENCH);
+    expectRefusal("p --residual nan", "--residual", HELIO_BENCH);
+    expectRefusal("p --size 64", "--size", HELIO_BENCH);
 }
 
 } // namespace

@@ -34,25 +34,30 @@ public:
         : context_(context), pack_(pack), renderer_(renderer), camera_(camera), o_(o), recorder_(context),
           from_(context, {"copy source", u64(o.copyMiB) << 20}), to_(context, {"copy target", u64(o.copyMiB) << 20})
     {
-        add("pack open", [this](benchmark::State&) { HELIO_CHECK(Pack::open(o_.pack).ok(), o_.pack); });
+        add("pack open", [this](benchmark::State&) { return openPack(); });
         add(
-            "stream copy", [this](benchmark::State& state) { streamCopy(state); }, true);
-        add("sun change, cold", [this](benchmark::State& state) { moveSun(state, 0.0, false); });
-        add("sun change of 1 degree, warm", [this](benchmark::State& state) { moveSun(state, 1.0, true); });
-        add("one warm sweep", [this](benchmark::State&) { sweeps(1); });
+            "stream copy", [this](benchmark::State& state) { return streamCopy(state); }, true);
+        add("sun change, cold", [this](benchmark::State& state) { return moveSun(state, 0.0, false); });
+        add("sun change of 1 degree, warm", [this](benchmark::State& state) { return moveSun(state, 1.0, true); });
+        add("one warm sweep", [this](benchmark::State&) { return sweeps(1); });
         add(
-            "sweep, mean of 16", [this](benchmark::State& state) { timeSweep(state); }, true);
-        add("camera move", [this](benchmark::State& state) { moveCamera(state); });
+            "sweep, mean of 16", [this](benchmark::State& state) { return timeSweep(state); }, true);
+        add("camera move", [this](benchmark::State& state) { return moveCamera(state); });
     }
 
 private:
-    /// deviceTime: the body states its time itself, from the device's timestamps; else its wall time counts.
-    void add(const char* name, const std::function<void(benchmark::State&)>& body, bool deviceTime = false)
+    /// The body returns its milliseconds by the device's timestamps, 0 without them; deviceTime: they are what is
+    /// reported, else the wall time is.
+    void add(const char* name, const std::function<double(benchmark::State&)>& body, bool deviceTime = false)
     {
         auto* added = benchmark::RegisterBenchmark(name,
                                                    [body, warmedUp = false](benchmark::State& state) mutable {
-                                                       if (!std::exchange(warmedUp, true)) body(state);
-                                                       for ([[maybe_unused]] auto once : state) body(state);
+                                                       if (!std::exchange(warmedUp, true)) {
+                                                           body(state);
+                                                           state.counters.clear();
+                                                       }
+                                                       for ([[maybe_unused]] auto once : state)
+                                                           state.SetIterationTime(body(state) / 1e3);
                                                    })
                           ->Unit(benchmark::kMillisecond)
                           ->Iterations(1)
@@ -63,16 +68,27 @@ private:
             added->UseRealTime();
     }
 
+    double openPack()
+    {
+        HELIO_CHECK(Pack::open(o_.pack).ok(), o_.pack);
+        return 0.0;
+    }
+
     /// To and fro, so that every repetition does the same work: by an angle, or in strength alone for a cold start,
     /// which does not care what came before.
-    void moveSun(benchmark::State& state, double degrees, bool warm)
+    double moveSun(benchmark::State& state, double degrees, bool warm)
     {
         const double step = double(++moves_ % 2);
         renderer_.setSun(150.0 + degrees * step, 40.0, 800.0 + step);
         renderer_.solveOptions() = {.residual = o_.residual, .warmStart = warm};
         const SolveReport& report = renderer_.solve();
-        for (const PassTime& stage : report.stages) state.counters[stage.name] = stage.milliseconds;
+        double total = 0.0;
+        for (const PassTime& stage : report.stages) {
+            state.counters[stage.name] = stage.milliseconds;
+            total += stage.milliseconds;
+        }
         state.counters["sweeps"] = report.sweeps;
+        return total;
     }
 
     /// Sun and sky stand: only first light and this many sweeps run. Returns the device's milliseconds.
@@ -85,17 +101,17 @@ private:
         return total;
     }
 
-    void timeSweep(benchmark::State& state)
+    double timeSweep(benchmark::State& state)
     {
         const double milliseconds = sweeps(kSweepsTimed) / kSweepsTimed;
-        state.SetIterationTime(milliseconds / 1e3);
-        if (milliseconds <= 0.0) return;
+        if (milliseconds <= 0.0) return 0.0;
         const double speed = bytesOfSweep(pack_.tile()) / milliseconds / 1e6;
         state.counters["GB/s"] = speed;
         if (copySpeed_ > 0.0) state.counters["of the stream copy"] = speed / copySpeed_;
+        return milliseconds;
     }
 
-    void streamCopy(benchmark::State& state)
+    double streamCopy(benchmark::State& state)
     {
         FrameGraph graph("copy");
         const Ref<Buffer> filled = addFill(graph, graph.import(from_), 1);
@@ -109,19 +125,19 @@ private:
         double milliseconds = 0.0;
         for (const PassTime& pass : recorder_.times())
             if (pass.name == "stream copy") milliseconds = pass.milliseconds;
-        state.SetIterationTime(milliseconds / 1e3);
-        if (milliseconds <= 0.0) return;
+        if (milliseconds <= 0.0) return 0.0;
         const double speed = 2.0 * double(from_.bytes()) / milliseconds / 1e6;
         copySpeed_ = std::max(copySpeed_, speed);
         state.counters["GB/s"] = speed;
+        return milliseconds;
     }
 
-    void moveCamera(benchmark::State& state)
+    double moveCamera(benchmark::State& state)
     {
         camera_.eye.x += 0.1;
         FrameGraph graph("frame");
         (void)renderer_.addFrame(graph, camera_, o_.width, o_.height, {});
-        state.counters["device"] = runGraph(context_, recorder_, graph);
+        return state.counters["device"] = runGraph(context_, recorder_, graph);
     }
 
     Context& context_;

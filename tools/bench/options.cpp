@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "tools/support/number_in.h"
+
 namespace helio {
 
 Result<BenchOptions> parseCommandLine(int argc, char** argv, bool& done)
@@ -18,12 +20,12 @@ Result<BenchOptions> parseCommandLine(int argc, char** argv, bool& done)
         ->check(CLI::Range(1u, 1000u))
         ->capture_default_str();
     app.add_option("--residual", o.residual, "where the sweeps stop")
-        ->check(CLI::Range(1e-7, 1.0))
+        ->check(numberIn(1e-7, 1.0))
         ->capture_default_str();
     app.add_option("--camera", o.camera, "as of heliopolis-render")->capture_default_str();
     app.add_option("--size", o.size, "WIDTHxHEIGHT of the frame, pixels")->capture_default_str();
     app.add_option("--sun-texel", o.sunTexel, "size of a texel of the sun raster, m; 0 = the default")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(numberIn(0.0, 100.0))
         ->capture_default_str();
     app.add_option("--copy", o.copyMiB, "size of the stream copy, MiB")
         ->check(CLI::Range(1u, 1024u))

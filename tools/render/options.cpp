@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <map>
 
+#include "tools/support/number_in.h"
+
 namespace helio {
 
 namespace {
@@ -48,11 +50,11 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     app.add_option("--sun", sun, "azimuth,elevation in degrees; azimuth clockwise from true north")
         ->capture_default_str();
     app.add_option("--dni", o.dni, "direct normal irradiance of the sun, W/m2")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(numberIn(0.0, 1e6))
         ->capture_default_str();
     app.add_option("--sky", sky, "sky model: uniform")->check(CLI::IsMember({"uniform"}))->capture_default_str();
     app.add_option("--dhi", o.dhi, "diffuse horizontal irradiance of the sky, W/m2")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(numberIn(0.0, 1e6))
         ->capture_default_str();
     app.add_flag("--no-emission", noEmission, "switch off what patches emit themselves");
     app.add_option("--camera", o.camera, "aerial, street, top, or x,y,z,tx,ty,tz[,fov] (m, vertical degrees)")
@@ -62,19 +64,19 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         app.add_option(
                "--residual", o.residual,
                "sweep until the relative residual is at most this, and the error estimated from its fall half of it")
-            ->check(CLI::Range(1e-7, 1.0))
+            ->check(numberIn(1e-7, 1.0))
             ->capture_default_str();
     app.add_option("--iterations", o.sweeps, "make exactly this many sweeps instead")
         ->check(CLI::Range(1u, 100000u))
         ->excludes(residual);
     app.add_option("--sun-texel", o.sunTexel, "size of a texel of the sun raster, m; 0 = 0.04 or what the scene allows")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(numberIn(0.0, 100.0))
         ->capture_default_str();
     app.add_option("--samples", o.samples, "samples a pixel along each axis")
         ->check(CLI::Range(1u, 4u))
         ->capture_default_str();
     app.add_option("--exposure", o.exposureStops, "stops added to the automatic exposure")
-        ->check(CLI::Range(-20.0, 20.0))
+        ->check(numberIn(-20.0, 20.0))
         ->capture_default_str();
     app.add_flag("--flat", flat, "one light value a patch in the picture, not interpolated");
     app.add_option("-o,--output", o.png, "picture as PNG, sRGB");

@@ -8,8 +8,8 @@ namespace helio {
 
 void failCheck(const char* file, int line, const char* condition, const std::string& values)
 {
-    std::fprintf(stderr, "internal error: %s:%d: %s does not hold%s%s\n", file, line, condition, values.empty() ? "" : ": ",
-                 values.c_str());
+    std::fprintf(stderr, "internal error: %s:%d: %s does not hold%s%s\n", file, line, condition,
+                 values.empty() ? "" : ": ", values.c_str());
     std::abort();
 }
 

@@ -21,5 +21,5 @@ template <class... Ts> std::string concat(const Ts&... parts)
 /// A programmer error: aborts with the condition and the values that follow it. Never for bad input (see Result).
 #define HELIO_CHECK(condition, ...)                                                                                    \
     do {                                                                                                               \
-        if (!(condition)) ::helio::failCheck(__FILE__, __LINE__, #condition, ::helio::concat(__VA_ARGS__));             \
+        if (!(condition)) ::helio::failCheck(__FILE__, __LINE__, #condition, ::helio::concat(__VA_ARGS__));            \
     } while (false)

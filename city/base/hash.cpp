@@ -5,9 +5,15 @@
 
 namespace helio {
 
-u64 hashBytes(std::span<const std::byte> bytes, u64 seed) { return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed); }
+u64 hashBytes(std::span<const std::byte> bytes, u64 seed)
+{
+    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
 
-u64 hashText(std::string_view text, u64 seed) { return XXH3_64bits_withSeed(text.data(), text.size(), seed); }
+u64 hashText(std::string_view text, u64 seed)
+{
+    return XXH3_64bits_withSeed(text.data(), text.size(), seed);
+}
 
 u64 mixSeed(u64 seed, u64 value)
 {

@@ -11,12 +11,12 @@
 namespace helio {
 namespace {
 
-constexpr double kStraddle = 1e-6;      // m: boxes may overlap a cut by this much
+constexpr double kStraddle = 1e-6;       // m: boxes may overlap a cut by this much
 constexpr double kAxisPreference = 0.25; // imbalance that the longer side may have and still win
 
 struct Cut
 {
-    u32 count = 0;         // boxes on the lower side
+    u32 count = 0;          // boxes on the lower side
     double imbalance = 2.0; // |lower - upper| / total area; 2 = no cut
 };
 

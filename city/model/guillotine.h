@@ -15,10 +15,10 @@ struct PlaneBox
     u32 item = 0;
 };
 
-/// Reorders `boxes` (at least two) so that the first k lie on one side of a cut and the rest on the other, and returns k,
-/// 0 < k < size. Prefers cuts that no box straddles, balanced by area, across the longer side; without one it cuts at the
-/// area median of the centres across the longer side. (A guillotine tree keeps every node a filled rectangle, which halves the
-/// error of a link against n-ary levels.)
+/// Reorders `boxes` (at least two) so that the first k lie on one side of a cut and the rest on the other, and returns
+/// k, 0 < k < size. Prefers cuts that no box straddles, balanced by area, across the longer side; without one it cuts
+/// at the area median of the centres across the longer side. (A guillotine tree keeps every node a filled rectangle,
+/// which halves the error of a link against n-ary levels.)
 u32 guillotineCut(std::span<PlaneBox> boxes);
 
 } // namespace helio

@@ -26,12 +26,13 @@ struct Node
     u32 height = 0;
     NodeKind kind = NodeKind::Tiling;
     u32 building = kNoIndex;
-    u32 name = 0;                     ///< into NodeTree::names
-    double area = 0.0;                ///< m2: a patch's own, else the sum over the children
-    double coverage = 1.0;            ///< area / outline area
-    glm::dvec3 centroid{0.0};         ///< area weighted
-    glm::dvec3 normal{0.0};           ///< unit normal of the lit side; zero for a cluster
-    u32 ringBegin = 0, ringCount = 0; ///< outline, into NodeTree::rings: a leaf's own rings, an inner planar node's convex hull
+    u32 name = 0;             ///< into NodeTree::names
+    double area = 0.0;        ///< m2: a patch's own, else the sum over the children
+    double coverage = 1.0;    ///< area / outline area
+    glm::dvec3 centroid{0.0}; ///< area weighted
+    glm::dvec3 normal{0.0};   ///< unit normal of the lit side; zero for a cluster
+    u32 ringBegin = 0,
+        ringCount = 0; ///< outline, into NodeTree::rings: a leaf's own rings, an inner planar node's convex hull
 };
 
 /// A leaf: coplanar polygons with one normal, one reflectance and one id.
@@ -63,7 +64,10 @@ struct NodeTree
     {
         return {children.data() + nodes[node].childBegin, nodes[node].childCount};
     }
-    std::span<const Ring3> outlineOf(u32 node) const { return {rings.data() + nodes[node].ringBegin, nodes[node].ringCount}; }
+    std::span<const Ring3> outlineOf(u32 node) const
+    {
+        return {rings.data() + nodes[node].ringBegin, nodes[node].ringCount};
+    }
     /// True for a planar node whose parent is none or a cluster: the top of a planar subtree.
     bool isPlanarRoot(u32 node) const
     {

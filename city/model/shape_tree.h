@@ -12,24 +12,27 @@ namespace helio {
 /// A diffuse surface. Channels of every light quantity: linear Rec.709 r, g, b and broadband solar.
 struct Surface
 {
-    std::string name;           ///< material.name, or empty
-    glm::dvec4 rho{0.5};        ///< reflectance, 0..1
-    glm::dvec4 emission{0.0};   ///< exitance, W/m2
+    std::string name;         ///< material.name, or empty
+    glm::dvec4 rho{0.5};      ///< reflectance, 0..1
+    glm::dvec4 emission{0.0}; ///< exitance, W/m2
     friend bool operator==(const Surface&, const Surface&) = default;
 };
 
 /// Solar reflectance where the input has none: 0.2126 r + 0.7152 g + 0.0722 b.
-inline double solarFromRgb(const glm::dvec3& rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
+inline double solarFromRgb(const glm::dvec3& rgb)
+{
+    return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b;
+}
 
 /// How a shape came from its parent.
 enum class ShapeOp : u8
 {
-    Root,    ///< the footprint, or the scene
-    Rule,    ///< spawned by name
-    Split,   ///< a part of a split or repeat
+    Root,      ///< the footprint, or the scene
+    Rule,      ///< spawned by name
+    Split,     ///< a part of a split or repeat
     Component, ///< a face of comp(f)
-    Insert,  ///< an asset
-    Group    ///< a level of a given hierarchy (OBJ scenes)
+    Insert,    ///< an asset
+    Group      ///< a level of a given hierarchy (OBJ scenes)
 };
 
 /// How an asset stands to the plane of the shape it was inserted on.
@@ -37,21 +40,23 @@ enum class AssetPlacement : u8
 {
     None,
     Fill,   ///< fills its tile of the facade, at or behind its plane: the tile is the patch
-    Overlay ///< stands out of the plane (balcony, cornice): no patch of its own, it carries the id of the patch behind it
+    Overlay ///< stands out of the plane (balcony, cornice): no patch of its own, it carries the id of the patch behind
+            ///< it
 };
 
 /// A node of the derivation. Parents come before their children; siblings are in the order of derivation.
 struct Shape
 {
     u32 parent = kNoIndex;
-    u32 name = 0;               ///< rule or terminal name, into ShapeTree::names
-    u32 building = kNoIndex;    ///< number of the building; kNoIndex = ground
+    u32 name = 0;            ///< rule or terminal name, into ShapeTree::names
+    u32 building = kNoIndex; ///< number of the building; kNoIndex = ground
     ShapeOp op = ShapeOp::Root;
     // Leaves only:
-    u32 polygonBegin = 0, polygonCount = 0; ///< into ShapeTree::polygons; may lie in several planes (a solid); 0 for an overlay
-    u32 surface = kNoIndex;     ///< into ShapeTree::surfaces
-    u32 sourceFace = kNoIndex;  ///< face of the OBJ it was read from
-    u32 asset = kNoIndex;       ///< into ShapeTree::assets
+    u32 polygonBegin = 0,
+        polygonCount = 0;      ///< into ShapeTree::polygons; may lie in several planes (a solid); 0 for an overlay
+    u32 surface = kNoIndex;    ///< into ShapeTree::surfaces
+    u32 sourceFace = kNoIndex; ///< face of the OBJ it was read from
+    u32 asset = kNoIndex;      ///< into ShapeTree::assets
     AssetPlacement placement = AssetPlacement::None;
     glm::dmat4x3 worldFromAsset{1.0}; ///< asset units to metres, z up; columns x, y, z axes and origin
 };

@@ -74,8 +74,10 @@ std::string statsText(const BakeStats& stats, double peakMiB)
     line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * stats.light.closureDefect,
          std::abs(stats.light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
     if (stats.light.insidePatchCount > 0)
-        line(text, "  %-20s %u patches, %.2f %% of the area: party walls and what stands inside a neighbour; not in the "
-                   "sums above", "inside", stats.light.insidePatchCount, 100.0 * stats.light.insideAreaShare);
+        line(text,
+             "  %-20s %u patches, %.2f %% of the area: party walls and what stands inside a neighbour; not in the "
+             "sums above",
+             "inside", stats.light.insidePatchCount, 100.0 * stats.light.insideAreaShare);
     line(text, "  %-20s error a link may leave %.3g, rays %u a patch, %u a link", "thresholds",
          stats.light.formFactorEpsilon, stats.light.raysPerPatch, stats.light.raysPerLink);
     line(text, "  %-20s %.2e", "area-ledger defect", stats.areaDefect);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole path, as a user runs it: bake a scene given as polygons, render its table, compare with the reference path tracer
-// (tests/data/scenes/README.md). Writes the rows of the README's table.
+// The whole path, as a user runs it: bake a scene given as polygons, render its table, compare with the reference path
+// tracer (tests/data/scenes/README.md). Writes the rows of the README's table.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,15 +29,18 @@ struct Case
 /// Bakes and renders; gives the per-face table.
 CsvTable runTools(const Case& c)
 {
-    const auto folder = std::filesystem::temp_directory_path() / ("heliopolis_accuracy_" + c.scene + std::to_string(getpid()));
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("heliopolis_accuracy_" + c.scene + std::to_string(getpid()));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     const std::string bin = HELIO_BIN_DIR, scene = std::string(HELIO_TEST_DATA) + "/scenes/" + c.scene;
     const std::string pack = (folder / "pack").string(), table = (folder / "table.csv").string();
-    const std::string bake = bin + "/heliopolis-bake " + scene + ".obj --surfaces " + scene + ".csv -o " + pack + " >" + (folder / "bake.txt").string();
+    const std::string bake = bin + "/heliopolis-bake " + scene + ".obj --surfaces " + scene + ".csv -o " + pack + " >" +
+                             (folder / "bake.txt").string();
     EXPECT_EQ(std::system(bake.c_str()), 0) << bake;
-    const std::string render = bin + "/heliopolis-render " + pack + " --sun " + c.sun + " --dni " + std::to_string(c.dni) + " --dhi " +
-                               std::to_string(c.dhi) + " --table " + table + " --per face >" + (folder / "render.txt").string();
+    const std::string render = bin + "/heliopolis-render " + pack + " --sun " + c.sun + " --dni " +
+                               std::to_string(c.dni) + " --dhi " + std::to_string(c.dhi) + " --table " + table +
+                               " --per face >" + (folder / "render.txt").string();
     EXPECT_EQ(std::system(render.c_str()), 0) << render;
     const CsvTable result = readCsvTable(table);
     std::filesystem::remove_all(folder);
@@ -60,8 +63,9 @@ std::vector<double> scaled(std::vector<double> values, double factor)
 }
 
 /// Errors of one quantity, averaged over the three colours, as one row of the table.
-ErrorMetrics judge(const std::string& scene, const std::string& quantity, const CsvTable& table, const std::vector<double>& area,
-                   const ColumnOf& reference, const std::vector<double>& se, const std::vector<bool>& keep)
+ErrorMetrics judge(const std::string& scene, const std::string& quantity, const CsvTable& table,
+                   const std::vector<double>& area, const ColumnOf& reference, const std::vector<double>& se,
+                   const std::vector<bool>& keep)
 {
     ErrorMetrics mean;
     for (const char* channel : kChannels) {
@@ -70,7 +74,8 @@ ErrorMetrics judge(const std::string& scene, const std::string& quantity, const 
         mean.bias += m.bias / 3.0;
         mean.p95 += m.p95 / 3.0;
     }
-    std::printf("| %s | %s | %.2f | %+.2f | %.2f |\n", scene.c_str(), quantity.c_str(), 100.0 * mean.rms, 100.0 * mean.bias, 100.0 * mean.p95);
+    std::printf("| %s | %s | %.2f | %+.2f | %.2f |\n", scene.c_str(), quantity.c_str(), 100.0 * mean.rms,
+                100.0 * mean.bias, 100.0 * mean.p95);
     return mean;
 }
 
@@ -88,18 +93,21 @@ void judgeSunAndSky(const Case& c, const std::function<bool(const CsvTable& scen
     for (size_t i = 0; i < reference.rows; ++i) keep.push_back(measured(scene, i));
     const std::vector<double> zero(reference.rows, 0.0);
 
-    const ErrorMetrics sun = judge(c.scene, "E_sun", table, area, [&](const std::string& ch) { return reference.column("sun_dir_" + ch); },
-                                   reference.column("sun_dir_se_g"), keep);
-    const ErrorMetrics sky = judge(c.scene, "E_sky", table, area,
-                                   [&](const std::string&) { return scaled(reference.column("svf"), kPi * kSkyRadiance); },
-                                   scaled(reference.column("svf_se"), kPi * kSkyRadiance), keep);
+    const ErrorMetrics sun = judge(
+        c.scene, "E_sun", table, area, [&](const std::string& ch) { return reference.column("sun_dir_" + ch); },
+        reference.column("sun_dir_se_g"), keep);
+    const ErrorMetrics sky = judge(
+        c.scene, "E_sky", table, area,
+        [&](const std::string&) { return scaled(reference.column("svf"), kPi * kSkyRadiance); },
+        scaled(reference.column("svf_se"), kPi * kSkyRadiance), keep);
     std::vector<double> se = reference.column("sun_ind_se_g");
     for (size_t i = 0; i < se.size(); ++i) se[i] = std::hypot(se[i], reference.column("sky_ind_se_g")[i]);
-    const ErrorMetrics indirect = judge(c.scene, "E_indirect", table, area,
-                                        [&](const std::string& ch) {
-                                            return sum(reference.column("sun_ind_" + ch), reference.column("sky_ind_" + ch));
-                                        },
-                                        se, keep);
+    const ErrorMetrics indirect = judge(
+        c.scene, "E_indirect", table, area,
+        [&](const std::string& ch) {
+            return sum(reference.column("sun_ind_" + ch), reference.column("sky_ind_" + ch));
+        },
+        se, keep);
     EXPECT_LE(sun.rms, 0.02);
     EXPECT_LE(sky.rms, 0.03);
     EXPECT_LE(indirect.rms, 0.08);
@@ -129,7 +137,8 @@ TEST(Accuracy, GridCityOfFourBuildings)
 TEST(Accuracy, StreetCanyon)
 {
     // The ends of the canyon see the sky; its middle part is what is judged.
-    judgeSunAndSky({.scene = "canyon", .sun = "120,50"}, [](const CsvTable& scene, size_t row) { return scene.column("bay")[row] == 1.0; });
+    judgeSunAndSky({.scene = "canyon", .sun = "120,50"},
+                   [](const CsvTable& scene, size_t row) { return scene.column("bay")[row] == 1.0; });
 }
 
 TEST(Accuracy, FurnaceAgainstItsClosedForm)
@@ -158,10 +167,9 @@ TEST(Accuracy, TwoFacingBoxesWithOneEmitter)
     ASSERT_EQ(table.rows, reference.rows);
     std::vector<double> se = reference.column("em_dir_se_g");
     for (size_t i = 0; i < se.size(); ++i) se[i] = std::hypot(se[i], reference.column("em_ind_se_g")[i]);
-    const ErrorMetrics m = judge("twobox", "E_indirect", table, reference.column("area"),
-                                 [&](const std::string& ch) {
-                                     return sum(reference.column("em_dir_" + ch), reference.column("em_ind_" + ch));
-                                 },
-                                 se, std::vector<bool>(reference.rows, true));
+    const ErrorMetrics m = judge(
+        "twobox", "E_indirect", table, reference.column("area"),
+        [&](const std::string& ch) { return sum(reference.column("em_dir_" + ch), reference.column("em_ind_" + ch)); },
+        se, std::vector<bool>(reference.rows, true));
     EXPECT_LE(std::abs(m.bias), 0.01);
 }

@@ -8,8 +8,9 @@
 
 namespace helio::test {
 
-ErrorMetrics compare(const std::vector<double>& area, const std::vector<double>& result, const std::vector<double>& reference,
-                     const std::vector<double>& referenceSe, const std::vector<bool>& keep)
+ErrorMetrics compare(const std::vector<double>& area, const std::vector<double>& result,
+                     const std::vector<double>& reference, const std::vector<double>& referenceSe,
+                     const std::vector<bool>& keep)
 {
     const double bad = std::numeric_limits<double>::infinity();
     const size_t faces = area.size();

@@ -15,7 +15,8 @@ gtest_discover_tests(screens_support_test PROPERTIES LABELS screens)
 add_executable(window_test screens/window_test.cpp)
 target_link_libraries(window_test PRIVATE engine_window GTest::gtest_main)
 add_test(NAME window_test COMMAND xvfb-run -a -s "-screen 0 640x360x24" $<TARGET_FILE:window_test>)
-set_tests_properties(window_test PROPERTIES LABELS screens TIMEOUT 120)
+# xvfb-run -a looks for a free display number without a lock: one test with a display at a time.
+set_tests_properties(window_test PROPERTIES LABELS screens TIMEOUT 120 RESOURCE_LOCK display)
 
 add_library(screens_city STATIC screens/golden_check.cpp screens/test_packs.cpp screens/visibility_check.cpp)
 target_link_libraries(screens_city PUBLIC screens_support engine_view PRIVATE city_bake GTest::gtest)
@@ -33,7 +34,8 @@ set_tests_properties(screens_pack_setup PROPERTIES LABELS screens FIXTURES_SETUP
 add_executable(screens_test screens/fly_test.cpp screens/golden_test.cpp screens/sun_visibility_test.cpp)
 target_link_libraries(screens_test PRIVATE screens_city fly_core GTest::gtest_main)
 add_dependencies(screens_test heliopolis-fly)
-gtest_discover_tests(screens_test PROPERTIES LABELS screens FIXTURES_REQUIRED screens_packs TIMEOUT 120)
+gtest_discover_tests(screens_test PROPERTIES LABELS screens FIXTURES_REQUIRED screens_packs TIMEOUT 120
+    RESOURCE_LOCK display)
 
 # By hand, on any pack: sun_visibility_check PACK --sun 180,45 --camera aerial --camera street
 add_executable(sun_visibility_check screens/sun_visibility_check.cpp)

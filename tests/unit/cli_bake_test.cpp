@@ -84,6 +84,7 @@ TEST_F(BakeCli, RefusesBadUsage)
     expectRefusal("town.geojson -o p --stats town.geojson/s.json", "there is no folder town.geojson");
     expectRefusal("town.geojson -o p --method wrong", "wrong");
     expectRefusal("town.geojson -o p --lat 91", "--lat");
+    expectRefusal("town.geojson -o p --height nan", "--height");
     expectRefusal("town.geojson more -o p", "more");
     expectRefusal("info", "PACK is required");
     expectRefusal("export p", "--surfaces is required");

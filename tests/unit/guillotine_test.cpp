@@ -10,7 +10,10 @@ using namespace helio;
 
 namespace {
 
-PlaneBox box(double x0, double y0, double x1, double y1, u32 item) { return {{x0, y0}, {x1, y1}, (x1 - x0) * (y1 - y0), item}; }
+PlaneBox box(double x0, double y0, double x1, double y1, u32 item)
+{
+    return {{x0, y0}, {x1, y1}, (x1 - x0) * (y1 - y0), item};
+}
 
 std::vector<u32> lowerItems(std::vector<PlaneBox> boxes)
 {
@@ -37,12 +40,14 @@ TEST(Guillotine, TakesTheOnlyCutThatNobodyStraddles)
     //  | 0 | 1 |
     //  |   | 2 |
     //  +---+---+
-    EXPECT_EQ(lowerItems({box(0, 0, 1, 3, 0), box(1, 1, 3, 2, 1), box(1, 0, 3, 1, 2), box(1, 2, 3, 3, 3)}), (std::vector<u32>{0}));
+    EXPECT_EQ(lowerItems({box(0, 0, 1, 3, 0), box(1, 1, 3, 2, 1), box(1, 0, 3, 1, 2), box(1, 2, 3, 3, 3)}),
+              (std::vector<u32>{0}));
 }
 
 TEST(Guillotine, APinwheelHasNoCleanCutAndStillEnds)
 {
-    const std::vector<PlaneBox> wheel{box(0, 0, 2, 1, 0), box(2, 0, 3, 2, 1), box(1, 2, 3, 3, 2), box(0, 1, 1, 3, 3), box(1, 1, 2, 2, 4)};
+    const std::vector<PlaneBox> wheel{box(0, 0, 2, 1, 0), box(2, 0, 3, 2, 1), box(1, 2, 3, 3, 2), box(0, 1, 1, 3, 3),
+                                      box(1, 1, 2, 2, 4)};
     const std::vector<u32> lower = lowerItems(wheel);
     EXPECT_GE(lower.size(), 1u);
     EXPECT_LE(lower.size(), 4u);

@@ -11,6 +11,7 @@
 #include "tools/bake/inspect.h"
 #include "tools/bake/interrupt.h"
 #include "tools/bake/progress.h"
+#include "tools/support/number_in.h"
 
 namespace helio {
 namespace {
@@ -54,16 +55,16 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->take_all()
         ->allow_extra_args(false);
     app.add_option("--lat", bake.latitudeDeg, "latitude of the origin, degrees")
-        ->check(CLI::Range(-90.0, 90.0))
+        ->check(numberIn(-90.0, 90.0))
         ->capture_default_str();
     app.add_option("--lon", bake.longitudeDeg, "longitude of the origin, degrees")
-        ->check(CLI::Range(-180.0, 180.0))
+        ->check(numberIn(-180.0, 180.0))
         ->capture_default_str();
     app.add_option("--north", bake.northDeg, "clockwise angle from true north to +y, degrees")
-        ->check(CLI::Range(-360.0, 360.0))
+        ->check(numberIn(-360.0, 360.0))
         ->capture_default_str();
     app.add_option("--height", bake.defaultHeight, "height of footprints that do not state one, metres")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(numberIn(1.0, 1000.0))
         ->capture_default_str();
     app.add_option("--seed", bake.light.seed, "seed of every random choice")->capture_default_str();
     app.add_option("--jobs", bake.light.jobs, "threads; 0 = all cores; the pack does not depend on it")
@@ -77,7 +78,7 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
                    "error that one link may leave, as a fraction of the mean radiosity (paper methods: largest form "
                    "factor of a link); "
                    "0 = the method's default")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(numberIn(0.0, 1.0))
         ->capture_default_str();
     app.add_option("--rays", bake.light.raysPerPatch, "sky rays per patch; 0 = chosen by the number of patches")
         ->check(CLI::Range(0u, 65536u))
@@ -86,7 +87,7 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
     app.add_option("--cutoff", bake.light.cutoff, "paper methods: no link beyond this distance, metres; 0 = none")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(numberIn(0.0, 1e6))
         ->capture_default_str();
     app.add_option("--stats", line.stats, "JSON file for the statistics");
     app.add_flag("--zstd", line.zstd, "pack the sections with zstd: a smaller file that is not mapped but unpacked");

@@ -16,7 +16,8 @@ namespace {
 
 constexpr u32 kWidth = 320, kHeight = 180;
 constexpr const char* kCamera = "-30,-48,30,0,-2,4,45";
-constexpr const char* kDisplay = "xvfb-run -a -s '-screen 0 640x360x24' ";
+// -noreset: without it the server starts anew when its last client leaves, and refuses the next one meanwhile.
+constexpr const char* kDisplay = "xvfb-run -a -s '-screen 0 640x360x24 -noreset' ";
 constexpr const char* kNoDisplay = "env -u DISPLAY -u WAYLAND_DISPLAY ";
 
 struct Outcome

@@ -14,7 +14,7 @@ gtest_discover_tests(screens_support_test PROPERTIES LABELS screens)
 
 add_executable(window_test screens/window_test.cpp)
 target_link_libraries(window_test PRIVATE engine_window GTest::gtest_main)
-add_test(NAME window_test COMMAND xvfb-run -a -s "-screen 0 640x360x24" $<TARGET_FILE:window_test>)
+add_test(NAME window_test COMMAND xvfb-run -a -s "-screen 0 640x360x24 -noreset" $<TARGET_FILE:window_test>)
 # xvfb-run -a looks for a free display number without a lock: one test with a display at a time.
 set_tests_properties(window_test PROPERTIES LABELS screens TIMEOUT 120 RESOURCE_LOCK display)
 

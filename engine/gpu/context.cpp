@@ -42,9 +42,9 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(MessageLog* log)
 bool hasLayer(const char* name)
 {
     u32 count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    vkCheck(vkEnumerateInstanceLayerProperties(&count, nullptr), "vkEnumerateInstanceLayerProperties");
     std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    vkCheck(vkEnumerateInstanceLayerProperties(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
     return std::any_of(layers.begin(), layers.end(),
                        [&](const auto& l) { return std::strcmp(l.layerName, name) == 0; });
 }
@@ -52,9 +52,10 @@ bool hasLayer(const char* name)
 bool hasInstanceExtension(const char* name)
 {
     u32 count = 0;
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    vkCheck(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), "vkEnumerateInstanceExtensionProperties");
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    vkCheck(vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data()),
+            "vkEnumerateInstanceExtensionProperties");
     return std::any_of(extensions.begin(), extensions.end(),
                        [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/graph/pass_context.h"
 #include "shaders/embedded.h"
@@ -142,9 +143,22 @@ UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, 
     return {light, result};
 }
 
+namespace {
+
+/// Sums that are not finite come from light beyond the range of a float: such a solve never counts as converged.
+bool isFinite(const gpu::ResidualRecord& sums)
+{
+    bool finite = true;
+    for (int c = 0; c < 4; ++c) finite = finite && std::isfinite(sums.change[c]) && std::isfinite(sums.scale[c]);
+    return finite;
+}
+
+} // namespace
+
 double residualOf(const gpu::ResidualRecord& sums)
 {
     double worst = 0.0;
+    if (!isFinite(sums)) return std::numeric_limits<double>::infinity();
     for (int c = 0; c < 4; ++c)
         if (sums.change[c] > 0.0f && sums.scale[c] > 0.0f)
             worst = std::max(worst, std::sqrt(double(sums.change[c]) / double(sums.scale[c])));
@@ -155,6 +169,7 @@ double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRe
 {
     constexpr double kSlowest = 0.9999;
     double worst = 0.0;
+    if (!isFinite(sums)) return std::numeric_limits<double>::infinity();
     for (int c = 0; c < 4; ++c) {
         if (!(sums.change[c] > 0.0f && sums.scale[c] > 0.0f)) continue;
         const double residual = std::sqrt(double(sums.change[c]) / double(sums.scale[c]));

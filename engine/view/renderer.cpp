@@ -78,6 +78,7 @@ struct Renderer::Impl
     void needImages(u32 width, u32 height, u32 samples)
     {
         if (images.width != width || images.height != height || images.samples != samples) {
+            context.waitIdle(); // The old ones may still be on their way to a window.
             images = {};
             images = makeFrameImages(context, width, height, samples);
         }

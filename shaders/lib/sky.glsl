@@ -3,7 +3,7 @@
 // only: the light solve knows the uniform sky, and nothing below the horizon. Needs `view`, a ViewRecord.
 vec3 skyRadiance(vec3 direction)
 {
-    const float up = max(direction.z, 0.0);
+    const float up = clamp(direction.z, 0.0, 1.0); // a normalised z may be 1 + an ulp
     vec3 radiance = mix(view.zenith.rgb, view.horizon.rgb, pow(1.0 - up, view.zenith.w));
     const float toSun = max(dot(direction, view.sunDirection.xyz), 0.0);
     radiance += view.glow.rgb * (pow(toSun, 8.0) * 0.25 + pow(toSun, 64.0) * 0.5) * view.sunDirection.w;

@@ -267,6 +267,17 @@ TEST_F(SweepTest, AgreesWithTheTwin)
     }
 }
 
+TEST(Residual, LightBeyondAFloatNeverCountsAsConverged)
+{
+    gpu::ResidualRecord sums{};
+    sums.change = glm::vec4(std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f, 0.0f);
+    sums.scale = glm::vec4(1.0f);
+    EXPECT_FALSE(residualOf(sums) <= 1.0);
+    EXPECT_FALSE(remainingErrorOf(sums, sums) <= 1.0);
+    sums.change = sums.scale = glm::vec4(std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(residualOf(sums) <= 1.0);
+}
+
 TEST_F(SweepTest, SameBytesTwice)
 {
     TileBuilder b = makeLinked(5000);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // heliopolis-fly as a program: under a virtual display, without one, and with bad input.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -109,6 +110,17 @@ TEST(Fly, ResizesAndLeavesAtTheEndOfItsScript)
     EXPECT_EQ(outcome.code, 0) << outcome.text;
 }
 
+TEST(Fly, ChangesBetweenViewsOfDifferentSampling)
+{
+    // Views of ids take one sample a pixel: the pictures are made anew while the window may still read the old ones.
+    const Outcome outcome =
+        runCommand(concat("HELIO_DEVICE=llvmpipe ", kDisplay,
+                          flyCommand(concat("'", testPackFolder(TestPack::SceneS).string(),
+                                            "' --validate --samples 2 --size 320x180 "
+                                            "--script 'wait 0.05; view 2; wait 0.05; view 1; wait 0.05'"))));
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+}
+
 TEST(Fly, NeedsADisplay)
 {
     const Outcome outcome =
@@ -124,11 +136,13 @@ TEST(Fly, RefusesBadInput)
         const Outcome outcome = runCommand(kNoDisplay + flyCommand(arguments));
         EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.text;
         EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
     };
     refuse("--script 'jump 1'", "script step 'jump 1'");
     refuse("--size 12", "--size 12");
     refuse("--sun 12", "--sun");
-    refuse("--dni nan", "must be finite");
+    refuse("--dni nan", "--dni");
+    refuse("--sun 150,500", "--sun");
     const Outcome noPack = runCommand(concat(kDisplay, flyCommand("'no such pack' --script 'wait 0'")));
     EXPECT_EQ(noPack.code, 1) << noPack.text;
     EXPECT_NE(noPack.text.find("no such pack"), std::string::npos) << noPack.text;

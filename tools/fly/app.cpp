@@ -123,9 +123,6 @@ bool FlyApp::drawFrame(ShownPicture* capture)
 {
     const glm::uvec2 size = window_->pictureSize();
     if (size.x == 0 || size.y == 0) return false;
-    // The renderer makes its images anew for another size: the old ones may still be on their way to the window.
-    if (size != drawnSize_) context_->waitIdle();
-    drawnSize_ = size;
     const Clock::time_point begin = Clock::now();
     renderer_->setSun(flight_.sunAzimuthDeg, flight_.sunElevationDeg, options_.dni);
     report_ = renderer_->solve();
@@ -138,7 +135,9 @@ bool FlyApp::drawFrame(ShownPicture* capture)
     ViewOptions view;
     view.mode = debug.mode;
     view.display = debug.display;
-    view.samples = options_.samples;
+    // A window may be dragged beyond what the device can sample so often.
+    const u32 largest = context_->facts().maxImageDimension2D;
+    view.samples = std::clamp(largest / std::max(size.x, size.y), 1u, options_.samples);
     view.exposureStops = flight_.exposureStops;
     FrameGraph graph("frame");
     (void)renderer_->addFrame(graph, camera, size.x, size.y, view);

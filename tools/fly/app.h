@@ -63,7 +63,6 @@ private:
     Flight flight_;
     double fovDegrees_ = 45.0;
     u32 view_ = 1;
-    glm::uvec2 drawnSize_{0};
     double frameMs_ = 0.0;
     SolveReport report_;
 };

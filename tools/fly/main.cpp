@@ -7,6 +7,7 @@
 
 #include "tools/fly/app.h"
 #include "tools/fly/builtin_pack.h"
+#include "tools/support/number_in.h"
 
 namespace helio {
 namespace {
@@ -57,10 +58,10 @@ int run(int argc, char** argv)
         ->delimiter(',')
         ->expected(2);
     app.add_option("--dni", options.dni, "Sunlight on a plane that faces the sun, W/m2")
-        ->check(CLI::NonNegativeNumber)
+        ->check(numberIn(0.0, 1e6))
         ->capture_default_str();
     app.add_option("--dhi", options.dhi, "Light of the uniform sky on the ground, W/m2")
-        ->check(CLI::NonNegativeNumber)
+        ->check(numberIn(0.0, 1e6))
         ->capture_default_str();
     app.add_option("--camera", options.camera,
                    "aerial, street, top, or x,y,z,tx,ty,tz[,fov]: eye and target, m; degrees")
@@ -75,13 +76,14 @@ int run(int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
-        return app.exit(problem) == 0 ? kOk : kBadInput;
+        if (problem.get_exit_code() == 0) return app.exit(problem);
+        return complain(concat(problem.what(), "; see --help"), kBadInput);
     }
     if (!readSize(size, options.width, options.height))
         return complain(concat("--size ", size, ": expected WIDTHxHEIGHT, 16 to 16384 each"), kBadInput);
     if (!sun.empty()) options.sun = {sun[0], sun[1]};
-    for (const double number : {options.sun.x, options.sun.y, options.dni, options.dhi})
-        if (!std::isfinite(number)) return complain("--sun, --dni and --dhi must be finite numbers", kBadInput);
+    if (!std::isfinite(options.sun.x) || !(options.sun.y >= -90.0 && options.sun.y <= 90.0))
+        return complain("--sun: expected an azimuth and an elevation of -90 to 90 degrees", kBadInput);
     if (!script.empty()) {
         Result<std::vector<ScriptStep>> steps = parseScript(script);
         if (!steps) return complain(steps.error().message, kBadInput);
@@ -109,5 +111,9 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-    return helio::run(argc, argv);
+    try {
+        return helio::run(argc, argv);
+    } catch (const std::exception& failure) { // Memory, threads, files: what the libraries throw.
+        return helio::complain(failure.what(), helio::kInternal);
+    }
 }

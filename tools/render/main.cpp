@@ -43,15 +43,21 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-void printSolve(const SolveReport& report)
+/// What to add where the sweeps ended before the residual that was asked for.
+const char* shortfall(const RenderOptions& o, const SolveReport& report)
+{
+    return o.sweeps == 0 && !(report.residual <= o.residual) ? " (the residual asked for was not reached)" : "";
+}
+
+void printSolve(const RenderOptions& o, const SolveReport& report)
 {
     std::printf("Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an "
                 "ancestor's "
                 "ratio, %u clamped\n",
                 report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY,
                 report.litPatches, report.flaggedPatches, report.excessPatches);
-    std::printf("Residual %.3g after %u sweeps; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
-                report.meanRadiosity.a);
+    std::printf("Residual %.3g after %u sweeps%s; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
+                shortfall(o, report), report.meanRadiosity.a);
     std::printf("On the device:\n");
     for (const PassTime& stage : report.stages)
         std::printf("  %-28s %9.2f ms\n", stage.name.c_str(), stage.milliseconds);
@@ -68,7 +74,7 @@ std::string describeLight(const RenderOptions& o, const SolveReport& report)
 {
     return concat("sun azimuth ", o.sun.x, " elevation ", o.sun.y, " degrees, DNI ", o.dni, ", uniform sky DHI ", o.dhi,
                   o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual, " after ",
-                  report.sweeps, " sweeps");
+                  report.sweeps, " sweeps", shortfall(o, report));
 }
 
 Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptions& o)
@@ -148,7 +154,7 @@ int runMain(int argc, char** argv)
     renderer.setEmission(o.emission);
     const SolveReport report = renderer.solve();
     steps.done("solve");
-    printSolve(report);
+    printSolve(o, report);
     if (const Status written = writePictures(renderer, *camera, o); !written)
         return complain(written.error().message, kBadInput);
     if (!o.table.empty()) {

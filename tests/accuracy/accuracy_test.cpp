@@ -82,7 +82,9 @@ ErrorMetrics judge(const std::string& scene, const std::string& quantity, const 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSkyRadiance = 120.0 / kPi; // W/m2/sr, of the scenes' uniform sky
 
-void judgeSunAndSky(const Case& c, const std::function<bool(const CsvTable& scene, size_t row)>& measured)
+/// Every light on. `emitters`: the reference has columns of emitted light.
+void judgeSunAndSky(const Case& c, bool emitters,
+                    const std::function<bool(const CsvTable& scene, size_t row)>& measured)
 {
     const CsvTable table = runTools(c);
     const std::string base = std::string(HELIO_TEST_DATA) + "/scenes/" + c.scene;
@@ -91,8 +93,6 @@ void judgeSunAndSky(const Case& c, const std::function<bool(const CsvTable& scen
     const std::vector<double>& area = reference.column("area");
     std::vector<bool> keep;
     for (size_t i = 0; i < reference.rows; ++i) keep.push_back(measured(scene, i));
-    const std::vector<double> zero(reference.rows, 0.0);
-
     const ErrorMetrics sun = judge(
         c.scene, "E_sun", table, area, [&](const std::string& ch) { return reference.column("sun_dir_" + ch); },
         reference.column("sun_dir_se_g"), keep);
@@ -100,12 +100,20 @@ void judgeSunAndSky(const Case& c, const std::function<bool(const CsvTable& scen
         c.scene, "E_sky", table, area,
         [&](const std::string&) { return scaled(reference.column("svf"), kPi * kSkyRadiance); },
         scaled(reference.column("svf_se"), kPi * kSkyRadiance), keep);
-    std::vector<double> se = reference.column("sun_ind_se_g");
-    for (size_t i = 0; i < se.size(); ++i) se[i] = std::hypot(se[i], reference.column("sky_ind_se_g")[i]);
+    // Parts of E_indirect in the reference; only the green channel's standard errors are known, and serve all three.
+    std::vector<std::string> parts{"sun_ind_", "sky_ind_"};
+    if (emitters) parts.insert(parts.end(), {"em_dir_", "em_ind_"});
+    std::vector<double> se(reference.rows, 0.0);
+    for (const std::string& part : parts) {
+        const std::vector<double> own = reference.column(part + "se_g");
+        for (size_t i = 0; i < se.size(); ++i) se[i] = std::hypot(se[i], own[i]);
+    }
     const ErrorMetrics indirect = judge(
         c.scene, "E_indirect", table, area,
         [&](const std::string& ch) {
-            return sum(reference.column("sun_ind_" + ch), reference.column("sky_ind_" + ch));
+            std::vector<double> total(reference.rows, 0.0);
+            for (const std::string& part : parts) total = sum(total, reference.column(part + ch));
+            return total;
         },
         se, keep);
     EXPECT_LE(sun.rms, 0.02);
@@ -131,14 +139,19 @@ TEST(Accuracy, MetricsByHand)
 
 TEST(Accuracy, GridCityOfFourBuildings)
 {
-    judgeSunAndSky({.scene = "S", .sun = "150,40"}, [](const CsvTable&, size_t) { return true; });
+    judgeSunAndSky({.scene = "S", .sun = "150,40"}, false, [](const CsvTable&, size_t) { return true; });
 }
 
 TEST(Accuracy, StreetCanyon)
 {
     // The ends of the canyon see the sky; its middle part is what is judged.
-    judgeSunAndSky({.scene = "canyon", .sun = "120,50"},
+    judgeSunAndSky({.scene = "canyon", .sun = "120,50"}, false,
                    [](const CsvTable& scene, size_t row) { return scene.column("bay")[row] == 1.0; });
+}
+
+TEST(Accuracy, TwoFacingBoxesUnderSunAndSky)
+{
+    judgeSunAndSky({.scene = "twobox", .sun = "150,40"}, true, [](const CsvTable&, size_t) { return true; });
 }
 
 TEST(Accuracy, FurnaceAgainstItsClosedForm)
@@ -157,6 +170,18 @@ TEST(Accuracy, FurnaceAgainstItsClosedForm)
             EXPECT_EQ(table.column(std::string("E_sun_") + channel)[i], 0.0) << "sun inside the closed box, face " << i;
         }
     std::printf("| furnace | B (largest error) | %.3f | | |\n", 100.0 * worst);
+    // The light that arrives is (B - 1) / rho = 1 / (1 - rho).
+    const std::vector<double> zero(table.rows, 0.0);
+    const ErrorMetrics indirect = judge(
+        "furnace", "E_indirect", table, table.column("area"),
+        [&](const std::string& channel) {
+            std::vector<double> closed;
+            for (const double rho : scene.column("rho_" + channel)) closed.push_back(1.0 / (1.0 - rho));
+            return closed;
+        },
+        zero, std::vector<bool>(table.rows, true));
+    EXPECT_LE(indirect.rms, 1e-3);
+    EXPECT_EQ(table.column("E_sky_solar"), zero);
     EXPECT_LE(worst, 1e-3);
 }
 

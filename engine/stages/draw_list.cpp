@@ -13,7 +13,9 @@ DrawList::DrawList(Context& context, std::vector<gpu::DrawRecord> draws)
       arguments_(context, {"draws", std::max<u64>(draws_->size(), 1) * sizeof(gpu::DrawRecord), Memory::Upload})
 {
     while (staticCount_ < draws_->size() && isStaticDraw((*draws_)[staticCount_])) ++staticCount_;
-    std::memcpy(arguments_.mapped(), draws_->data(), draws_->size() * sizeof(gpu::DrawRecord));
+    // No draws is a null pointer, which memcpy must not get.
+    if (!draws_->empty())
+        std::memcpy(arguments_.mapped(), draws_->data(), draws_->size() * sizeof(gpu::DrawRecord));
     arguments_.flush();
 }
 

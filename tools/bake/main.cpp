@@ -11,25 +11,11 @@
 #include "tools/bake/inspect.h"
 #include "tools/bake/interrupt.h"
 #include "tools/bake/progress.h"
+#include "tools/support/complain.h"
 #include "tools/support/number_in.h"
 
 namespace helio {
 namespace {
-
-enum ExitCode
-{
-    kOk = 0,
-    kBadInput = 1,
-    kInternal = 2
-};
-
-/// The one line that a problem gets.
-int complain(std::string message, ExitCode code)
-{
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    std::fprintf(stderr, "heliopolis-bake: %s\n", message.c_str());
-    return code;
-}
 
 struct CommandLine
 {

@@ -10,23 +10,10 @@
 #include "engine/view/renderer.h"
 #include "tools/bench/cases.h"
 #include "tools/bench/options.h"
+#include "tools/support/complain.h"
 
 namespace helio {
 namespace {
-
-enum ExitCode
-{
-    kOk = 0,
-    kBadInput = 1,
-    kInternal = 2
-};
-
-int complain(std::string message, ExitCode code)
-{
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    std::fprintf(stderr, "heliopolis-bench: %s\n", message.c_str());
-    return code;
-}
 
 /// What the figures of a report mean, beside milliseconds.
 const char* unitOf(const std::string& figure)

@@ -9,24 +9,11 @@
 #include "engine/view/renderer.h"
 #include "tools/render/options.h"
 #include "tools/render/table.h"
+#include "tools/support/complain.h"
 
 namespace helio {
 
 namespace {
-
-enum ExitCode
-{
-    kOk = 0,
-    kBadInput = 1,
-    kInternal = 2
-};
-
-int complain(std::string message, ExitCode code)
-{
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    std::fprintf(stderr, "heliopolis-render: %s\n", message.c_str());
-    return code;
-}
 
 /// Prints the seconds since the last call, by name.
 class Steps

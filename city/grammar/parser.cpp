@@ -254,21 +254,7 @@ private:
     {
         BlockElement element;
         element.place = peek().place;
-        if (sizes) {
-            element.size = parseSize();
-        } else if (peek().kind == TokenKind::Number && peek().number >= 0.0 && peek().number < 1e6) {
-            element.selector = Selector::Index;
-            element.selectorIndex = u32(take().number);
-        } else {
-            const Token name = needName("a selector such as front, side, top or all");
-            const auto selector = findSelector(name.text);
-            if (!selector)
-                return fail(name.place,
-                            concat("unknown selector '", name.text,
-                                   "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, "
-                                   "nutant, all, a number, or object., world., street. forms"));
-            element.selector = *selector;
-        }
+        element.size = parseSize(); // of a part of split; else the selector, which words.cpp reads
         element.combine = isSign("=") || isSign("=:");
         if (!takeSign(":") && !takeSign("=") && !takeSign("=:"))
             return fail(peek().place,

@@ -2,8 +2,9 @@
 #include "city/grammar/resolve.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
+
+#include "city/grammar/words.h"
 
 namespace helio::cga {
 
@@ -175,17 +176,6 @@ private:
         return it->second;
     }
 
-    /// Takes the bare word at the front of the arguments, if there is one.
-    std::string takeWord(Statement& statement, size_t at = 0)
-    {
-        if (at >= statement.args.size()) return "";
-        const Expr& value = statement.args[at].value;
-        if (value.kind != ExprKind::Keyword || !value.args.empty()) return "";
-        const std::string word = value.text;
-        statement.args.erase(statement.args.begin() + std::ptrdiff_t(at));
-        return word;
-    }
-
     void resolveOperation(Statement& statement, const std::string& name, const OperationInfo& info)
     {
         statement.op = info.op;
@@ -204,8 +194,11 @@ private:
             return fail(statement.place,
                         concat(info.hasBlock ? "a block { .. } is missing after '" : "no block { .. } belongs after '",
                                name, "': write ", info.usage));
-        if (!resolveWords(statement))
-            return fail(statement.place, concat("'", name, "' does not know this bare word: write ", info.usage));
+        const WordsResult words = resolveWords(statement, program_);
+        if (words.error) return fail(words.place, *words.error);
+        if (!words.ignored.empty())
+            warnOnce(statement.place, words.ignored,
+                     concat(words.ignored, " is read and ignored: surfaces have a colour, a name and an emission"));
         const bool sizes = info.op == Operation::Resize || info.op == Operation::Translate;
         for (Size& arg : statement.args) {
             resolve(arg.value);
@@ -215,91 +208,6 @@ private:
                                                            : "' (relative to the scope) belongs to s, t and split"));
         }
         if (statement.block) resolveBlock(*statement.block, info.op);
-    }
-
-    /// Turns the bare words of an operation into Statement::mode; false if a word is unknown.
-    bool resolveWords(Statement& statement)
-    {
-        switch (statement.op) {
-        case Operation::Component:
-            return takeWord(statement) == "f";
-        case Operation::AlignScopeToAxes: {
-            if (statement.args.empty()) return true;
-            statement.mode = 1;
-            return takeWord(statement) == "y";
-        }
-        case Operation::Center: {
-            const std::string axes = takeWord(statement);
-            for (const char axis : axes) {
-                if (axis < 'x' || axis > 'z') return false;
-                statement.mode |= 1u << (axis - 'x');
-            }
-            return !axes.empty();
-        }
-        case Operation::Extrude: {
-            if (statement.args.size() == 1) return true;
-            const std::string word = takeWord(statement);
-            static constexpr std::array<std::pair<std::string_view, ExtrudeMode>, 4> kModes = {
-                {{"face.normal", ExtrudeMode::FaceNormal},
-                 {"vertex.normal", ExtrudeMode::FaceNormal},
-                 {"world.up", ExtrudeMode::WorldUp},
-                 {"world.up.flatTop", ExtrudeMode::WorldUpFlatTop}}};
-            for (const auto& [text, mode] : kModes)
-                if (word == text) return statement.mode = u32(mode), true;
-            return false;
-        }
-        case Operation::Insert: {
-            if (statement.args.size() == 1) return true;
-            const std::string word = takeWord(statement, 1);
-            statement.mode = word == "zUp" ? kWholeScope : 0;
-            return word == "zUp" || word == "yUp";
-        }
-        case Operation::Rotate: {
-            if (statement.args.size() == 3) return true;
-            const std::string word = takeWord(statement);
-            statement.mode = word == "scopeCenter" ? kWholeScope : 0;
-            return word == "scopeCenter" || word == "scopeOrigin";
-        }
-        case Operation::Split: {
-            const std::string axis = takeWord(statement);
-            if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z') return false;
-            statement.mode = u32(axis[0] - 'x');
-            if (statement.args.empty()) return true;
-            statement.mode |= kNoAdjust;
-            return takeWord(statement) == "noAdjust";
-        }
-        case Operation::Set:
-            return resolveSet(statement);
-        default:
-            return true;
-        }
-    }
-
-    bool resolveSet(Statement& statement)
-    {
-        const std::string word = takeWord(statement);
-        static constexpr std::array<std::pair<std::string_view, SetTarget>, 9> kTargets = {
-            {{"material.color.r", SetTarget::ColorR},
-             {"material.color.g", SetTarget::ColorG},
-             {"material.color.b", SetTarget::ColorB},
-             {"material.color.rgb", SetTarget::ColorRgb},
-             {"material.name", SetTarget::Name},
-             {"material.emissive.r", SetTarget::EmissiveR},
-             {"material.emissive.g", SetTarget::EmissiveG},
-             {"material.emissive.b", SetTarget::EmissiveB},
-             {"seedian", SetTarget::Seedian}}};
-        for (const auto& [text, target] : kTargets)
-            if (word == text) return statement.mode = u32(target), true;
-        if (const auto global = program_.globalIndex.find({word, 0}); global != program_.globalIndex.end()) {
-            if (program_.globals[global->second].kind != GlobalKind::Attribute) return false;
-            statement.mode = u32(SetTarget::FirstGlobal) + global->second;
-            return true;
-        }
-        if (word.rfind("material.", 0) != 0 && word.rfind("trim.", 0) != 0) return false;
-        statement.mode = u32(SetTarget::Ignored);
-        warnOnce(statement.place, "set " + word,
-                 concat("set(", word, ", ..) is read and ignored: surfaces have a colour, a name and an emission"));
-        return true;
     }
 
     void resolveBlock(Block& block, Operation op)

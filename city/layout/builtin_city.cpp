@@ -8,7 +8,7 @@
 
 #include "city/base/check.h"
 #include "city/layout/city_lots.h"
-#include "city/layout/clip.h"
+#include "city/geometry/clip.h"
 #include "city/layout/polygon_repair.h"
 #include "city/layout/shared_walls.h"
 

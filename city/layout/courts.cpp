@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "city/layout/clip.h"
+#include "city/geometry/clip.h"
 #include "city/layout/polygon_repair.h"
 
 namespace helio {

@@ -8,7 +8,7 @@
 
 #include "city/base/file.h"
 #include "city/layout/box_grid.h"
-#include "city/layout/clip.h"
+#include "city/geometry/clip.h"
 #include "city/layout/geojson_features.h"
 #include "city/layout/overlaps.h"
 #include "city/layout/polygon_repair.h"

@@ -17,6 +17,7 @@ struct GeoFeature
     std::optional<double> height;                ///< m, from properties.height; > 0
     std::optional<double> levels;                ///< from properties.levels; > 0
     std::map<std::string, Attribute> attributes; ///< the other scalar properties
+    std::vector<GivenFace> faces;                ///< walls and roofs that the file models, in its coordinates
 };
 
 struct GeoFile

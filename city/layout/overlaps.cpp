@@ -9,7 +9,7 @@
 
 #include "city/base/check.h"
 #include "city/layout/box_grid.h"
-#include "city/layout/clip.h"
+#include "city/geometry/clip.h"
 #include "city/layout/polygon_repair.h"
 
 namespace helio {

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "city/base/check.h"
-#include "city/layout/clip.h"
+#include "city/geometry/clip.h"
 
 namespace helio {
 

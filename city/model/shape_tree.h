@@ -51,6 +51,10 @@ struct Shape
     u32 name = 0;            ///< rule or terminal name, into ShapeTree::names
     u32 building = kNoIndex; ///< number of the building; kNoIndex = ground
     ShapeOp op = ShapeOp::Root;
+    /// Number of the child that the derivation gave it under its parent (children without any leaf are forgotten, so
+    /// numbers may be missing): the path of these numbers is the stable key of a shape.
+    u32 child = 0;
+    bool covered = false; ///< leaf on a part of a wall that a neighbour covers: it exchanges no light
     // Leaves only:
     u32 polygonBegin = 0,
         polygonCount = 0;      ///< into ShapeTree::polygons; may lie in several planes (a solid); 0 for an overlay

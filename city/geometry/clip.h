@@ -6,7 +6,7 @@
 
 #include "city/model/polygon.h"
 
-// Between our polygons and Clipper's integer grid. Internal to city/layout.
+// Between our polygons and Clipper's integer grid. For city/layout and city/grammar.
 namespace helio {
 
 /// Grid steps per metre: 0.1 mm, so that Clipper stays in its fast 64-bit range up to +-107 km.

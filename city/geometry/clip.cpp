@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "city/layout/clip.h"
+#include "city/geometry/clip.h"
 
 #include <algorithm>
 #include <cmath>

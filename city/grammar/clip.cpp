@@ -7,35 +7,39 @@
 #include <numeric>
 #include <tuple>
 
+#include "city/grammar/cap.h"
+
 namespace helio::cga {
 
 namespace {
 
-constexpr double kMinArea = 1e-10; ///< m2: smaller loops are rounding
-
+/// What is kept of a cut: the points with dot(normal, p) >= offset.
 struct HalfSpace
 {
-    int axis;
-    double at;
-    double side; ///< +1 keeps p[axis] > at, -1 keeps p[axis] < at
+    glm::dvec3 normal; ///< unit
+    double offset;
+    int axis = -1; ///< of the coordinate that is constant on the plane; -1: none
 
+    static HalfSpace alongAxis(int axis, double at, double side)
+    {
+        glm::dvec3 normal(0.0);
+        normal[axis] = side;
+        return {normal, side * at, axis};
+    }
+
+    double exactDistance(const glm::dvec3& p) const { return glm::dot(normal, p) - offset; }
     /// Distance on the kept side, m; corners within kSnap are on the plane.
     double distance(const glm::dvec3& p) const
     {
-        const double d = side * (p[axis] - at);
+        const double d = exactDistance(p);
         return std::abs(d) < kSnap ? 0.0 : d;
     }
-    glm::dvec3 inward() const
+    /// Puts a point that is close to the plane onto it, to the last bit where the plane lies along the axes.
+    glm::dvec3 snapped(glm::dvec3 p) const
     {
-        glm::dvec3 direction(0.0);
-        direction[axis] = side;
-        return direction;
+        if (axis >= 0) p[axis] = normal[axis] * offset;
+        return p;
     }
-};
-
-struct Segment
-{
-    glm::dvec3 from, to;
 };
 
 /// A run of a ring on the kept side: from where it enters across the plane to where it leaves.
@@ -46,14 +50,10 @@ using Chain = Ring3;
 glm::dvec3 crossing(const HalfSpace& plane, glm::dvec3 a, glm::dvec3 b)
 {
     if (plane.distance(a) == 0.0) std::swap(a, b);
-    if (plane.distance(b) == 0.0) {
-        b[plane.axis] = plane.at;
-        return b;
-    }
+    if (plane.distance(b) == 0.0) return plane.snapped(b);
     if (std::tie(a.x, a.y, a.z) > std::tie(b.x, b.y, b.z)) std::swap(a, b);
-    glm::dvec3 p = a + (b - a) * ((plane.at - a[plane.axis]) / (b[plane.axis] - a[plane.axis]));
-    p[plane.axis] = plane.at;
-    return p;
+    const double from = plane.exactDistance(a), to = plane.exactDistance(b);
+    return plane.snapped(a + (b - a) * (from / (from - to)));
 }
 
 void appendChains(const HalfSpace& plane, const Ring3& ring, const std::vector<double>& distances,
@@ -71,57 +71,7 @@ void appendChains(const HalfSpace& plane, const Ring3& ring, const std::vector<d
     }
 }
 
-bool contains(const Ring3& ring, const glm::dvec3& p, const glm::dvec3& normal)
-{
-    // Even-odd rule in the coordinate plane that the polygon faces most.
-    const glm::dvec3 n = glm::abs(normal);
-    const int u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z >= n.x && n.z >= n.y ? 1 : 2;
-    bool inside = false;
-    for (size_t k = 0, j = ring.size() - 1; k < ring.size(); j = k++) {
-        const glm::dvec3 &a = ring[k], &b = ring[j];
-        if ((a[v] > p[v]) != (b[v] > p[v]) && p[u] < (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v]) + a[u])
-            inside = !inside;
-    }
-    return inside;
-}
-
-/// Sorts loops into polygons: counter-clockwise ones about the normal are outlines, the others holes of the outline
-/// around them.
-std::vector<Polygon3> assemble(std::vector<Ring3> loops, const glm::dvec3& normal)
-{
-    std::vector<Polygon3> polygons;
-    std::vector<Ring3> holes;
-    for (Ring3& loop : loops) {
-        const double signedArea = glm::dot(vectorArea(loop), normal);
-        if (std::abs(signedArea) < kMinArea) continue;
-        if (signedArea < 0.0)
-            holes.push_back(std::move(loop));
-        else
-            polygons.push_back({std::move(loop), {}});
-    }
-    for (Ring3& hole : holes)
-        for (Polygon3& polygon : polygons) {
-            // A corner of the hole may touch the outline, so the majority of its corners decides.
-            const auto inside = std::count_if(hole.begin(), hole.end(),
-                                              [&](const glm::dvec3& p) { return contains(polygon.outer, p, normal); });
-            if (polygons.size() > 1 && size_t(inside) * 2 <= hole.size()) continue;
-            polygon.holes.push_back(std::move(hole));
-            break;
-        }
-    return polygons;
-}
-
-Ring3 withoutRepeats(const Ring3& ring)
-{
-    Ring3 result;
-    for (const glm::dvec3& p : ring)
-        if (result.empty() || glm::distance(result.back(), p) > 1e-9) result.push_back(p);
-    while (result.size() > 1 && glm::distance(result.front(), result.back()) <= 1e-9) result.pop_back();
-    return result;
-}
-
-/// Cuts one polygon; the edges that the cut makes are added to `seams`, reversed, as edges of the cap of a solid.
-std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygon, std::vector<Segment>& seams)
+std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygon)
 {
     std::vector<Ring3> loops;
     std::vector<Chain> chains;
@@ -142,7 +92,7 @@ std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygo
 
     // Walking on from a chain's end, the cut runs along `along` (kept part to the left) to the next chain's start. Ends
     // and starts alternate on it, so that the k-th end joins the k-th start, whatever their order at equal places.
-    const glm::dvec3 normal = unitNormal(polygon), along = glm::cross(plane.inward(), normal);
+    const glm::dvec3 normal = unitNormal(polygon), along = glm::cross(plane.normal, normal);
     std::vector<size_t> byEnd(chains.size()), byStart(chains.size()), nextOf(chains.size());
     std::iota(byEnd.begin(), byEnd.end(), size_t(0));
     byStart = byEnd;
@@ -152,11 +102,7 @@ std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygo
     std::sort(byStart.begin(), byStart.end(), [&](size_t a, size_t b) {
         return std::pair(glm::dot(chains[a].front(), along), a) < std::pair(glm::dot(chains[b].front(), along), b);
     });
-    for (size_t k = 0; k < chains.size(); ++k) {
-        nextOf[byEnd[k]] = byStart[k];
-        const Segment seam{chains[byStart[k]].front(), chains[byEnd[k]].back()};
-        if (glm::distance(seam.from, seam.to) > 1e-9) seams.push_back(seam);
-    }
+    for (size_t k = 0; k < chains.size(); ++k) nextOf[byEnd[k]] = byStart[k];
     std::vector<bool> used(chains.size(), false);
     for (size_t first = 0; first < chains.size(); ++first) {
         Ring3 loop;
@@ -167,64 +113,26 @@ std::vector<Polygon3> clipPolygon(const HalfSpace& plane, const Polygon3& polygo
         loop = withoutRepeats(loop);
         if (loop.size() >= 3) loops.push_back(std::move(loop));
     }
-    return assemble(std::move(loops), normal);
-}
-
-/// Joins seams end to start into loops. The nearest start continues a loop; one that finds none within a millimetre is
-/// dropped.
-std::vector<Ring3> joinSeams(const std::vector<Segment>& seams)
-{
-    std::vector<Ring3> loops;
-    std::vector<bool> used(seams.size(), false);
-    for (size_t first = 0; first < seams.size(); ++first) {
-        if (used[first]) continue;
-        used[first] = true;
-        Ring3 loop{seams[first].from};
-        glm::dvec3 end = seams[first].to;
-        bool closed = false;
-        while (!closed) {
-            size_t best = seams.size();
-            double bestDistance = 1e-3;
-            for (size_t k = 0; k < seams.size(); ++k) {
-                if (used[k]) continue;
-                const double distance = glm::distance(seams[k].from, end);
-                if (distance < bestDistance) {
-                    best = k;
-                    bestDistance = distance;
-                }
-            }
-            const double back = glm::distance(loop.front(), end);
-            closed = back < 1e-3 && back <= bestDistance;
-            if (closed || best == seams.size()) break;
-            used[best] = true;
-            loop.push_back(seams[best].from);
-            end = seams[best].to;
-        }
-        loop = withoutRepeats(loop);
-        if (closed && loop.size() >= 3) loops.push_back(std::move(loop));
-    }
-    return loops;
+    return assembleLoops(std::move(loops), normal);
 }
 
 Geometry clipHalf(const Geometry& geometry, const HalfSpace& plane)
 {
     Geometry result;
     result.closed = geometry.closed;
-    std::vector<Segment> seams;
     for (const Face& face : geometry.faces)
-        for (Polygon3& polygon : clipPolygon(plane, face.polygon, seams)) {
+        for (Polygon3& polygon : clipPolygon(plane, face.polygon)) {
             Face piece = face;
             piece.polygon = std::move(polygon);
+            if (!face.edges.empty()) inheritEdges(face, piece);
             result.faces.push_back(std::move(piece));
         }
-    if (!geometry.closed || seams.empty() || result.faces.empty()) return result;
-    const glm::dvec3 normal = -plane.inward();
-    for (Polygon3& polygon : assemble(joinSeams(seams), normal)) {
-        Face cap;
-        cap.polygon = std::move(polygon);
-        cap.xAxis = plane.axis == 1 ? glm::dvec3(1, 0, 0) : glm::cross(glm::dvec3(0, 1, 0), normal);
-        result.faces.push_back(std::move(cap));
-    }
+    if (!geometry.closed || result.faces.empty()) return result;
+    const glm::dvec3 outward = -plane.normal, up(0, 1, 0);
+    const glm::dvec3 level = glm::cross(up, outward);
+    closeCut(
+        result, [&](const glm::dvec3& p) { return plane.distance(p) == 0.0; }, outward,
+        glm::length(level) > 1e-6 ? glm::normalize(level) : glm::dvec3(1, 0, 0));
     return result;
 }
 
@@ -234,8 +142,17 @@ Geometry clipSlab(const Geometry& geometry, int axis, double low, double high)
 {
     const auto [least, most] = bounds(geometry);
     if (least[axis] > high - kSnap && most[axis] > high + kSnap) return {};
-    Geometry result = least[axis] < low - kSnap ? clipHalf(geometry, {axis, low, 1.0}) : geometry;
-    return most[axis] > high + kSnap ? clipHalf(result, {axis, high, -1.0}) : result;
+    Geometry result = least[axis] < low - kSnap ? clipHalf(geometry, HalfSpace::alongAxis(axis, low, 1.0)) : geometry;
+    return most[axis] > high + kSnap ? clipHalf(result, HalfSpace::alongAxis(axis, high, -1.0)) : result;
+}
+
+Geometry clipPlane(const Geometry& geometry, const glm::dvec3& normal, double offset)
+{
+    const HalfSpace plane{normal, offset};
+    bool outside = false;
+    for (const Face& face : geometry.faces)
+        for (const glm::dvec3& p : face.polygon.outer) outside = outside || plane.distance(p) < 0.0;
+    return outside ? clipHalf(geometry, plane) : geometry;
 }
 
 } // namespace helio::cga

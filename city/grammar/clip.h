@@ -11,4 +11,8 @@ inline constexpr double kSnap = 1e-7;
 /// cut exactly, cut solids are closed again by caps. Both sides of a cut share their corners to the bit. May be empty.
 Geometry clipSlab(const Geometry& geometry, int axis, double low, double high);
 
+/// The part of a geometry with dot(normal, p) >= offset (scope coordinates; unit normal, m), closed again like that of
+/// clipSlab.
+Geometry clipPlane(const Geometry& geometry, const glm::dvec3& normal, double offset);
+
 } // namespace helio::cga

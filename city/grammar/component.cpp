@@ -7,8 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "city/base/check.h"
-
 namespace helio::cga {
 
 namespace {
@@ -74,10 +72,9 @@ bool selects(Selector selector, const glm::dvec3& normal)
         return slope < -11.25 && slope >= -78.75;
     case Selector::All:
         return true;
-    case Selector::Index:
-        break;
+    default:
+        return false;
     }
-    HELIO_CHECK(false, "selector ", int(selector), " has no direction");
 }
 
 SelectorFrame frameOf(Selector selector)
@@ -90,6 +87,107 @@ SelectorFrame frameOf(Selector selector)
 bool isStreet(Selector selector)
 {
     return selector >= Selector::StreetFront && selector <= Selector::StreetSide;
+}
+
+std::vector<Component> componentsOf(const Geometry& geometry, const std::vector<MeshEdge>& edges, ComponentKind kind,
+                                    const glm::dmat3& worldFromScope)
+{
+    std::vector<glm::dvec3> normals;
+    for (const Face& face : geometry.faces) normals.push_back(unitNormal(face.polygon));
+    std::vector<Component> components;
+    if (kind == ComponentKind::Faces) {
+        for (u32 k = 0; k < geometry.faces.size(); ++k) {
+            Component component;
+            component.normal = normals[k];
+            component.edge = geometry.faces[k].edge;
+            component.outer = geometry.faces[k].outer;
+            component.face = k;
+            components.push_back(component);
+        }
+        for (const MeshEdge& edge : edges)
+            if (edge.border) components[edge.face].border = true;
+        return components;
+    }
+    std::vector<glm::dvec3> corners;
+    for (const MeshEdge& edge : edges) {
+        const glm::dvec3 normal = normals[edge.face], by = edge.to - edge.from;
+        Component component;
+        component.face = edge.face;
+        component.from = edge.from;
+        component.to = edge.to;
+        component.edge = edge.footprint;
+        component.border = edge.border;
+        component.outer = edge.outer && geometry.faces[edge.face].outer;
+        if (kind == ComponentKind::Vertices) {
+            const auto same = [&](const glm::dvec3& p) { return glm::distance(p, edge.from) < 1e-6; };
+            if (std::any_of(corners.begin(), corners.end(), same)) continue;
+            corners.push_back(edge.from);
+            component.to = edge.from;
+            components.push_back(component);
+            continue;
+        }
+        if (glm::length(by) < 1e-6) continue;
+        const bool shared = kind == ComponentKind::Edges && edge.other != kNoIndex && edge.other != edge.face;
+        if (shared && !edge.first) continue;
+        component.upward = component.normal = normal;
+        if (shared) {
+            const glm::dvec3 sum = normal + normals[edge.other];
+            if (glm::length(sum) > 1e-3) component.normal = component.upward = glm::normalize(sum);
+            const glm::dvec3 other = worldFromScope * normals[edge.other];
+            component.roofEdge = roofEdge(worldFromScope * by, worldFromScope * normal, &other);
+        } else {
+            component.normal = glm::normalize(glm::cross(by, normal)); // out of the face, in its plane
+            component.roofEdge = roofEdge(worldFromScope * by, worldFromScope * normal, nullptr);
+        }
+        components.push_back(component);
+    }
+    return components;
+}
+
+bool selects(Selector selector, u32 selectorIndex, const Component& component, u32 number,
+             const SelectorContext& context)
+{
+    switch (selector) {
+    case Selector::Index:
+        return number == selectorIndex;
+    case Selector::Border:
+        return component.border;
+    case Selector::Inside:
+        return !component.border;
+    case Selector::Ridge:
+        return component.roofEdge == RoofEdge::Ridge;
+    case Selector::Hip:
+        return component.roofEdge == RoofEdge::Hip;
+    case Selector::Valley:
+        return component.roofEdge == RoofEdge::Valley;
+    case Selector::Eave:
+        return component.roofEdge == RoofEdge::Eave;
+    case Selector::All:
+        return true;
+    default:
+        break;
+    }
+    if (component.normal == glm::dvec3(0.0)) return false;
+    if (isStreet(selector)) {
+        if (!component.outer) return false;
+        if (context.streets)
+            return selectsStreet(selector, *context.streets, context.worldFromScope * component.normal, component.edge);
+    }
+    const SelectorFrame frame = frameOf(selector);
+    return selects(selector, frame == SelectorFrame::Scope   ? component.normal
+                             : frame == SelectorFrame::World ? context.worldFromScope * component.normal
+                                                             : context.objectFromScope * component.normal);
+}
+
+Scope edgeScope(const Scope& parent, const Component& component)
+{
+    Scope scope{parent.toWorld(component.from), parent.axes, glm::dvec3(0.0)};
+    const glm::dvec3 by = component.to - component.from;
+    if (glm::length(by) < 1e-9) return scope;
+    const glm::dvec3 x = glm::normalize(by), y = glm::normalize(component.upward - x * glm::dot(x, component.upward));
+    scope.axes = parent.axes * glm::dmat3(x, y, glm::cross(x, y));
+    scope.size.x = glm::length(by);
+    return scope;
 }
 
 std::pair<Scope, Geometry> faceShape(const Scope& parent, const Face& face)

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "city/grammar/placement.h"
+
 namespace helio::cga {
 
 namespace {
@@ -19,20 +21,12 @@ struct Nest
     u32& count;
 };
 
-/// Turns of the scope against the pivot, degrees, for the order x, y, z: axes = Rz Ry Rx.
-glm::dvec3 turnsOf(const glm::dmat3& r)
-{
-    const double y = std::asin(std::min(1.0, std::max(-1.0, -r[0][2])));
-    const double x = std::atan2(r[1][2], r[2][2]), z = std::atan2(r[0][1], r[0][0]);
-    return glm::dvec3(x, y, z) * (180.0 / M_PI);
-}
-
 } // namespace
 
-Evaluator::Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options, u64 seed,
-                     Trouble& trouble)
-    : program_(program), footprint_(footprint), options_(options), seed_(seed), trouble_(trouble),
-      progress_(program.globals.size(), Progress::None), values_(program.globals.size())
+Evaluator::Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options,
+                     const Occlusion& occlusion, u64 seed, Trouble& trouble)
+    : program_(program), footprint_(footprint), options_(options), occlusion_(occlusion), seed_(seed),
+      trouble_(trouble), progress_(program.globals.size(), Progress::None), values_(program.globals.size())
 {
 }
 
@@ -153,7 +147,16 @@ Value Evaluator::evaluateGlobal(const Expr& expr, const Env& env)
     if (calls_ > kMaxDepth)
         trouble_.fail(expr.place, concat("functions call each other deeper than ", kMaxDepth,
                                          " levels: look for a recursion without end in '", global.name, "'"));
-    return evaluate(global.value, {env.shape, arguments, env.random});
+    return globalBody(global, std::move(arguments), env);
+}
+
+/// The value of a global whose arguments are known, with its locals.
+Value Evaluator::globalBody(const Global& global, std::vector<Value> parameters, const Env& env)
+{
+    parameters.reserve(parameters.size() + global.locals.size()); // what has been computed must not move
+    const auto inner = [&] { return Env{env.shape, std::span<const Value>(parameters), env.random}; };
+    for (const Expr& local : global.locals) parameters.push_back(evaluate(local, inner()));
+    return evaluate(global.value, inner());
 }
 
 Value Evaluator::globalValue(u32 index)
@@ -167,7 +170,7 @@ Value Evaluator::globalValue(u32 index)
     progress_[index] = Progress::Running;
     // A stream of its own: drawing in one attribute must not change the others.
     Random random(mixSeed(seed_, hashText(global.name)));
-    Value value = evaluate(global.value, {&initial_, {}, &random});
+    Value value = globalBody(global, {}, {&initial_, {}, &random});
     values_[index] = global.kind == GlobalKind::Attribute ? attributeValue(global, std::move(value)) : std::move(value);
     progress_[index] = Progress::Done;
     return values_[index];
@@ -177,16 +180,19 @@ Value Evaluator::globalValue(u32 index)
 Value Evaluator::attributeValue(const Global& global, Value value)
 {
     const Value* given = nullptr;
-    const Value height = footprint_.height;
+    const Value height = footprint_.height, id = footprint_.id;
     const auto option = options_.attributes.find(global.name);
-    const auto property = footprint_.attributes.find(global.name);
+    const auto property = footprint_.attributes.find(global.property);
     if (option != options_.attributes.end())
         given = &option->second;
-    else if (global.name == "height" && footprint_.height > 0.0)
+    else if (global.property == "height" && footprint_.height > 0.0)
         given = &height;
     else if (property != footprint_.attributes.end())
         given = &property->second;
+    else if (global.property == "id" && !footprint_.id.empty())
+        given = &id;
     if (!given) return value;
+    checkRange(global, *given);
     if (given->index() == value.index()) return *given;
     if (std::holds_alternative<std::string>(value)) return toText(*given);
     if (const std::string* text = std::get_if<std::string>(given)) {
@@ -198,6 +204,27 @@ Value Evaluator::attributeValue(const Global& global, Value value)
     trouble_.warn(global.place, concat("attribute '", global.name, "' is ", kindOf(value),
                                        "; values of features that are ", kindOf(*given), " are not used"));
     return value;
+}
+
+/// A given value outside the rule file's @Range is used, with a warning.
+void Evaluator::checkRange(const Global& global, const Value& value)
+{
+    const double* number = std::get_if<double>(&value);
+    if (!number) return;
+    for (const Annotation& annotation : global.annotations) {
+        if (annotation.name != "Range") continue;
+        size_t place = 0;
+        std::optional<double> low, high;
+        for (const Annotation::Argument& argument : annotation.arguments) {
+            // @Range(min=3, max=14), or by place: @Range(3, 14)
+            if (argument.key == "min" || (argument.key.empty() && place == 0)) low = argument.number;
+            if (argument.key == "max" || (argument.key.empty() && place == 1)) high = argument.number;
+            ++place;
+        }
+        if ((low && *number < *low) || (high && *number > *high))
+            trouble_.warnOnce(global.place, concat("attribute '", global.name, "' is outside its range"),
+                              concat(": ", *number, " of building '", footprint_.id, "'"));
+    }
 }
 
 Value Evaluator::evaluateBinary(const Expr& expr, const Env& env)
@@ -260,17 +287,17 @@ Value Evaluator::evaluateShape(ShapeAttribute attribute, const Env& env) const
     case ShapeAttribute::ScopeSx:
     case ShapeAttribute::ScopeSy:
     case ShapeAttribute::ScopeSz:
-        return scope.size[index(ShapeAttribute::ScopeSx)];
+        return shape.signedSize()[index(ShapeAttribute::ScopeSx)];
     case ShapeAttribute::ScopeTx:
     case ShapeAttribute::ScopeTy:
     case ShapeAttribute::ScopeTz:
-        return (fromPivot * (scope.origin - shape.pivot))[index(ShapeAttribute::ScopeTx)];
+        return (fromPivot * (scope.toWorld(shape.localOrigin()) - shape.pivot))[index(ShapeAttribute::ScopeTx)];
     case ShapeAttribute::ScopeRx:
     case ShapeAttribute::ScopeRy:
     case ShapeAttribute::ScopeRz:
-        return turnsOf(fromPivot * scope.axes)[index(ShapeAttribute::ScopeRx)];
+        return anglesOf(fromPivot * scope.axes)[index(ShapeAttribute::ScopeRx)];
     case ShapeAttribute::ScopeElevation:
-        return scope.origin.y;
+        return footprint_.base + scope.toWorld(shape.localOrigin()).y;
     case ShapeAttribute::SplitIndex:
         return shape.splitIndex;
     case ShapeAttribute::SplitTotal:
@@ -285,6 +312,16 @@ Value Evaluator::evaluateShape(ShapeAttribute attribute, const Env& env) const
         return shape.seedian.value_or(double(seed_ & 0xFFFFFFFFu));
     case ShapeAttribute::InitialShapeName:
         return footprint_.id;
+    case ShapeAttribute::InitialShapeOriginPx:
+        return footprintCorner(footprint_).x + initial_.scope.origin.x;
+    case ShapeAttribute::InitialShapeOriginPy:
+        return footprint_.base + initial_.scope.origin.y;
+    case ShapeAttribute::InitialShapeOriginPz:
+        return initial_.scope.origin.z - footprintCorner(footprint_).y;
+    case ShapeAttribute::InitialShapeOriginOx:
+    case ShapeAttribute::InitialShapeOriginOy:
+    case ShapeAttribute::InitialShapeOriginOz:
+        return anglesOf(initial_.scope.axes)[index(ShapeAttribute::InitialShapeOriginOx)];
     case ShapeAttribute::ColorR:
     case ShapeAttribute::ColorG:
     case ShapeAttribute::ColorB:
@@ -297,6 +334,12 @@ Value Evaluator::evaluateShape(ShapeAttribute attribute, const Env& env) const
     case ShapeAttribute::EmissiveG:
     case ShapeAttribute::EmissiveB:
         return shape.look.emissive[index(ShapeAttribute::EmissiveR)];
+    case ShapeAttribute::Opacity:
+        return shape.look.opacity;
+    case ShapeAttribute::TrimVertical:
+        return shape.trimVertical;
+    case ShapeAttribute::TrimHorizontal:
+        return shape.trimHorizontal;
     }
     HELIO_CHECK(false, "shape attribute ", int(attribute));
 }

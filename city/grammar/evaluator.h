@@ -4,6 +4,7 @@
 
 #include "city/base/hash.h"
 #include "city/grammar/derive.h"
+#include "city/grammar/occlusion.h"
 #include "city/grammar/program.h"
 #include "city/grammar/shape_state.h"
 #include "city/grammar/trouble.h"
@@ -23,8 +24,8 @@ struct Env
 class Evaluator
 {
 public:
-    Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options, u64 seed,
-              Trouble& trouble);
+    Evaluator(const Program& program, const Footprint& footprint, const DeriveOptions& options,
+              const Occlusion& occlusion, u64 seed, Trouble& trouble);
 
     /// The shape on which attributes and constants are evaluated. Must be set before the first evaluation.
     void setInitialShape(const ShapeState& shape) { initial_ = shape; }
@@ -39,20 +40,23 @@ public:
 private:
     Value evaluateGlobal(const Expr& expr, const Env& env);
     Value globalValue(u32 index);
+    Value globalBody(const Global& global, std::vector<Value> parameters, const Env& env);
     Value attributeValue(const Global& global, Value value);
+    void checkRange(const Global& global, const Value& value);
     Value evaluateBinary(const Expr& expr, const Env& env);
     Value evaluateShape(ShapeAttribute attribute, const Env& env) const;
     Value evaluateChoice(const Expr& expr, const Env& env);
     Value callBuiltin(const Expr& expr, const Env& env); ///< functions.cpp
     Value callMath(const Expr& expr, const Env& env);
-    Value callText(const Expr& expr, const Env& env);
-    Value callGeometry(const Expr& expr, const Env& env);
-    bool isCovered(const ShapeState& shape) const;
+    Value callText(const Expr& expr, const Env& env);      ///< text_functions.cpp
+    Value callGeometry(const Expr& expr, const Env& env);  ///< geometry_functions.cpp
+    Value callOcclusion(const Expr& expr, const Env& env); ///< geometry_functions.cpp
     Value finite(double value, const Expr& expr, std::string_view what);
 
     const Program& program_;
     const Footprint& footprint_;
     const DeriveOptions& options_;
+    const Occlusion& occlusion_;
     u64 seed_;
     Trouble& trouble_;
     ShapeState initial_;

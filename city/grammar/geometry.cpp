@@ -39,6 +39,13 @@ Ring3 turningCorners(const Ring3& ring)
     return corners;
 }
 
+u32 ringEdgeCount(const Polygon3& polygon)
+{
+    size_t count = 0;
+    forEachRing(polygon, [&](const Ring3& ring) { count += ring.size(); });
+    return u32(count);
+}
+
 /// An edge as six integers on a grid of a micrometre, to find edges that two faces share.
 using EdgeKey = std::array<i64, 6>;
 EdgeKey edgeKey(const glm::dvec3& a, const glm::dvec3& b)
@@ -161,6 +168,43 @@ void turnScope(Scope& scope, Geometry& geometry, const glm::dmat3& axes)
     fitScope(scope, geometry);
 }
 
+void inheritEdges(const Face& from, Face& part)
+{
+    constexpr double kTolerance = 1e-3; // m: offsets are rounded to a tenth of a millimetre
+    struct Line
+    {
+        glm::dvec3 begin, along;
+        double size;
+        u32 edge;
+    };
+    std::vector<Line> lines;
+    u32 number = 0;
+    forEachRing(from.polygon, [&](const Ring3& ring) {
+        for (size_t k = 0; k < ring.size(); ++k, ++number) {
+            const glm::dvec3 by = ring[(k + 1) % ring.size()] - ring[k];
+            const u32 edge = from.edges.empty() ? number : from.edges[number];
+            if (edge != kNoIndex && glm::length(by) > kTolerance)
+                lines.push_back({ring[k], glm::normalize(by), glm::length(by), edge});
+        }
+    });
+    const auto liesOn = [&](const Line& line, const glm::dvec3& p) {
+        const double at = glm::dot(p - line.begin, line.along);
+        return at > -kTolerance && at < line.size + kTolerance &&
+               glm::distance(line.begin + line.along * at, p) < kTolerance;
+    };
+    std::vector<u32> edges;
+    forEachRing(part.polygon, [&](const Ring3& ring) {
+        for (size_t k = 0; k < ring.size(); ++k) {
+            const glm::dvec3 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+            const auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
+                return glm::dot(b - a, l.along) > 0.0 && liesOn(l, a) && liesOn(l, b);
+            });
+            edges.push_back(line == lines.end() ? kNoIndex : line->edge);
+        }
+    });
+    part.edges = std::move(edges);
+}
+
 Geometry extrude(const Geometry& base, const glm::dvec3& by, bool tagEdges)
 {
     std::set<EdgeKey> shared;
@@ -177,22 +221,24 @@ Geometry extrude(const Geometry& base, const glm::dvec3& by, bool tagEdges)
         // A face that looks against the vector becomes the bottom as it is; its walls run the other way round.
         const bool along = glm::dot(vectorArea(face.polygon), by) > 0.0;
         bool outer = true;
+        size_t ringEdge = 0;
         forEachRing(face.polygon, [&](const Ring3& ring) {
-            for (size_t k = 0; k < ring.size(); ++k, ++edge) {
+            for (size_t k = 0; k < ring.size(); ++k, ++edge, ++ringEdge) {
                 const glm::dvec3 &a = ring[k], &b = ring[(k + 1) % ring.size()];
                 if (!shared.empty() && shared.count(edgeKey(a, b)) > 0) continue;
                 if (a == b) continue;
                 Face wall;
                 wall.polygon.outer = along ? Ring3{a, b, b + by, a + by} : Ring3{b, a, a + by, b + by};
                 wall.xAxis = glm::normalize(along ? b - a : a - b);
-                wall.edge = tagEdges ? edge : kNoIndex;
+                wall.edge = ringEdge < face.edges.size() ? face.edges[ringEdge] : tagEdges ? edge : kNoIndex;
                 wall.outer = outer;
                 solid.faces.push_back(std::move(wall));
             }
             outer = false;
         });
     }
-    for (const bool top : {true, false})
+    for (const bool top : {true, false}) {
+        u32 number = 0;
         for (const Face& face : base.faces) {
             Face cap = face;
             const bool along = glm::dot(vectorArea(face.polygon), by) > 0.0;
@@ -204,8 +250,14 @@ Geometry extrude(const Geometry& base, const glm::dvec3& by, bool tagEdges)
             place(cap.polygon.outer);
             for (Ring3& hole : cap.polygon.holes) place(hole);
             cap.edge = kNoIndex;
+            if (along != top) cap.edges.clear();
+            const u32 count = ringEdgeCount(face.polygon);
+            if (along == top && tagEdges && cap.edges.empty())
+                for (u32 k = 0; k < count; ++k) cap.edges.push_back(number + k);
+            number += count;
             solid.faces.push_back(std::move(cap));
         }
+    }
     return solid;
 }
 

@@ -25,6 +25,9 @@ struct Face
     glm::dvec3 xAxis{1.0, 0.0, 0.0}; ///< direction of its first edge: becomes the x axis of a component's scope
     u32 edge = kNoIndex;             ///< edge of the footprint on which it stands (outer ring, then holes)
     bool outer = true;               ///< false: it stands on the edge of a hole (a courtyard)
+    /// Of a part of the lot, per edge of its rings (outer, then holes): edge of the footprint on whose line it lies, or
+    /// kNoIndex. Empty: none is known.
+    std::vector<u32> edges;
 };
 
 /// The geometry of a shape: a set of faces, or a closed solid whose faces look outward.
@@ -56,9 +59,14 @@ void fitScope(Scope& scope, Geometry& geometry);
 /// Turns the scope to other axes around its unmoved geometry.
 void turnScope(Scope& scope, Geometry& geometry, const glm::dmat3& axes);
 
+/// Numbers the edges of a part of a face (same coordinates) by those edges of the face in whose line they lie, within a
+/// millimetre and in the same direction. Without numbers on the face, its edges count from 0.
+void inheritEdges(const Face& from, Face& part);
+
 /// Extrudes every face by a vector (scope coordinates, m; not parallel to the faces) into one closed solid: the walls
 /// in the order of the edges (outer ring, then holes), then the tops, then the bottoms. Edges that two faces share get
-/// no wall. `tagEdges`: number the walls by their edge, for a footprint.
+/// no wall. Walls are numbered by Face::edges; where there are none and with `tagEdges`, by their edge, for a
+/// footprint.
 Geometry extrude(const Geometry& base, const glm::dvec3& by, bool tagEdges);
 
 } // namespace helio::cga

@@ -42,8 +42,8 @@ std::optional<std::pair<Scope, Geometry>> lotOf(const Footprint& footprint)
 
 Interpreter::Interpreter(const Program& program, const Footprint& footprint, const DeriveOptions& options,
                          AssetBoxes& boxes, u64 seed, Trouble& trouble)
-    : program_(program), footprint_(footprint), boxes_(boxes), seed_(seed), trouble_(trouble),
-      evaluator_(program, footprint, options, seed, trouble)
+    : program_(program), footprint_(footprint), boxes_(boxes), seed_(seed), trouble_(trouble), occlusion_(footprint),
+      evaluator_(program, footprint, options, occlusion_, seed, trouble)
 {
 }
 
@@ -55,15 +55,19 @@ BuildingShapes Interpreter::run(u32 startRule)
     root.op = ShapeOp::Root;
     result_.shapes.push_back(root);
     auto lot = lotOf(footprint_);
-    if (!lot) {
+    if (!lot && footprint_.faces.empty()) {
         trouble_.warn(rule.place, "footprints without area, with less than three corners or clockwise are not derived");
         return std::move(result_);
     }
     ShapeState state;
-    state.scope = lot->first;
-    state.pivot = state.scope.origin;
+    if (lot) {
+        state.scope = lot->first;
+        state.geometry = std::make_shared<const Geometry>(std::move(lot->second));
+    } else {
+        state.geometry = std::make_shared<const Geometry>();
+    }
+    state.pivot = objectOrigin_ = state.scope.origin;
     state.pivotAxes = objectAxes_ = state.scope.axes;
-    state.geometry = std::make_shared<const Geometry>(std::move(lot->second));
     state.footprint = true;
     evaluator_.setInitialShape(state);
 
@@ -72,9 +76,26 @@ BuildingShapes Interpreter::run(u32 startRule)
     frame.seed = seed_;
     frame.random = Random(mixSeed(seed_, hashText(program_.names[rule.name])));
     frame.outer = state.scope;
+    if (!footprint_.faces.empty()) {
+        runGivenFaces(rule, frame, state);
+        return std::move(result_);
+    }
+    const std::vector<Value> values = entryValues(rule, {}, state, frame);
+    frame.parameters = values;
     runBody(rule.body, state, frame);
     if (!frame.spawned && !frame.deleted && !trouble_.failed()) emitLeaf(state, frame, rule.place);
     return std::move(result_);
+}
+
+/// Arguments of a rule, then its locals: what its body sees as parameters.
+std::vector<Value> Interpreter::entryValues(const Rule& rule, std::span<const Value> arguments, const ShapeState& state,
+                                            Frame& frame)
+{
+    std::vector<Value> values(arguments.begin(), arguments.end());
+    values.reserve(arguments.size() + rule.locals.size()); // what has been computed must not move
+    for (const Expr& local : rule.locals)
+        values.push_back(evaluator_.evaluate(local, {&state, std::span<const Value>(values), &frame.random}));
+    return values;
 }
 
 /// Follows case and percent down to the body that is carried out.
@@ -129,7 +150,8 @@ Interpreter::Frame Interpreter::childFrame(Frame& parent, u32 name, ShapeOp op, 
     frame.rule = name;
     frame.depth = parent.depth + 1;
     // The tree key is the path of child numbers, so editing one subtree re-rolls only that subtree.
-    frame.seed = mixSeed(parent.seed, parent.childCount++);
+    const u32 number = parent.childCount++;
+    frame.seed = mixSeed(parent.seed, number);
     frame.random = Random(mixSeed(frame.seed, name < program_.names.size() ? hashText(program_.names[name]) : 0));
     parent.spawned = true;
     if (frame.depth > kMaxDepth)
@@ -141,6 +163,7 @@ Interpreter::Frame Interpreter::childFrame(Frame& parent, u32 name, ShapeOp op, 
     shape.parent = parent.node;
     shape.name = name;
     shape.op = op;
+    shape.child = number;
     result_.shapes.push_back(shape);
     return frame;
 }
@@ -150,10 +173,14 @@ void Interpreter::spawnRule(const Statement& call, const ShapeState& state, Fram
 {
     Frame frame = childFrame(parent, call.name, op, call.place);
     if (trouble_.failed()) return;
-    frame.parameters = arguments;
     frame.outer = state.scope;
     ShapeState end = state;
-    if (call.rule != kNoIndex) runBody(program_.rules[call.rule].body, end, frame);
+    if (call.rule != kNoIndex) {
+        const Rule& rule = program_.rules[call.rule];
+        const std::vector<Value> values = entryValues(rule, arguments, state, frame);
+        frame.parameters = values;
+        runBody(rule.body, end, frame);
+    }
     finish(frame, parent, state, end, call.place);
 }
 
@@ -172,8 +199,12 @@ void Interpreter::spawnPart(const Body& body, ShapeState state, Frame& parent, S
         for (const Size& arg : call.args) arguments.push_back(evaluator_.evaluate(arg.value, env(state, frame)));
         frame.rule = result_.shapes[frame.node].name = call.name;
         frame.random = Random(mixSeed(frame.seed, hashText(program_.names[call.name])));
-        frame.parameters = arguments;
-        if (call.rule != kNoIndex) runBody(program_.rules[call.rule].body, state, frame);
+        if (call.rule != kNoIndex) {
+            const Rule& rule = program_.rules[call.rule];
+            const std::vector<Value> values = entryValues(rule, arguments, start, frame);
+            frame.parameters = values;
+            runBody(rule.body, state, frame);
+        }
         finish(frame, parent, start, state, call.place);
         return;
     }

@@ -22,15 +22,17 @@ u32 Interpreter::surfaceOf(const Look& look)
 {
     Surface surface;
     surface.name = look.material;
-    const auto material = findMaterial(look.material);
-    if (material) surface.rho = *material;
+    const Material* material = materialNamed(look.material);
+    if (material) surface.rho = material->rho;
     if (look.color) {
         const glm::dvec3 rgb = linearFromSrgb(glm::clamp(*look.color, 0.0, 1.0));
-        surface.rho = glm::dvec4(rgb, material ? material->a : solarFromRgb(rgb));
+        surface.rho = glm::dvec4(rgb, material ? material->rho.a : solarFromRgb(rgb));
     }
     surface.rho = glm::clamp(surface.rho, 0.0, kMaxReflectance);
     const glm::dvec3 emissive = glm::max(look.emissive, glm::dvec3(0.0));
     surface.emission = glm::dvec4(emissive, solarFromRgb(emissive));
+    // A lamp of the table shines by its name; what a rule says about emission comes before it.
+    if (material && emissive == glm::dvec3(0.0)) surface.emission = material->emission;
     const auto &r = surface.rho, &e = surface.emission;
     const auto [it, added] = surfaceIndex_.emplace(
         std::tuple(surface.name, std::array{r.r, r.g, r.b, r.a, e.r, e.g, e.b, e.a}), u32(result_.surfaces.size()));
@@ -41,7 +43,7 @@ u32 Interpreter::surfaceOf(const Look& look)
 /// Adds a geometry's faces as polygons in the world frame: metres, z up.
 void Interpreter::addPolygons(const Scope& scope, const Geometry& geometry, Shape& shape)
 {
-    const glm::dvec2 corner = footprint_.outline.outer[0];
+    const glm::dvec2 corner = footprintCorner(footprint_);
     shape.polygonBegin = u32(result_.polygons.size());
     const auto convert = [&](const Ring3& ring) {
         Ring3 result;
@@ -90,39 +92,59 @@ bool Interpreter::fillsTile(const ShapeState& state) const
     return true;
 }
 
+/// True if the middle of the shape's tile lies on a part of a wall that a neighbour covers.
+bool Interpreter::onCoveredPart(const ShapeState& state) const
+{
+    if (!occlusion_.any() || state.edge == kNoIndex || !state.tile || !state.tile->intact) return false;
+    const auto [low, high] = bounds(*state.tile->geometry);
+    return occlusion_.covers(state.tile->scope.toWorld(0.5 * (low + high)), state.edge);
+}
+
 /// Turns a frame's node into a leaf. False if nothing is left to show.
 bool Interpreter::emitLeaf(const ShapeState& state, Frame& frame, Place place)
 {
     Shape& shape = result_.shapes[frame.node];
-    if (!state.asset) {
-        addPolygons(state.scope, *state.geometry, shape);
+    // Behind a neighbour's wall there is no opening: what would fill a piece of the facade leaves it blank.
+    const bool dropped = state.asset && onCoveredPart(state), fills = state.asset && fillsTile(state);
+    if (dropped) ++result_.droppedOpenings;
+    if (!state.asset || (dropped && fills)) {
+        const Scope& scope = state.asset ? state.tile->scope : state.scope;
+        const Geometry& geometry = state.asset ? *state.tile->geometry : *state.geometry;
+        addPolygons(scope, geometry, shape);
         if (shape.polygonCount == 0) return false;
         shape.surface = surfaceOf(state.look);
-        if (state.tile && state.intact) frame.covered.planar = state.tile->area;
+        if (state.tile && (state.intact || (state.asset && state.tile->intact)))
+            frame.covered.planar = state.tile->area;
+        if (occlusion_.any() && state.edge != kNoIndex) {
+            trouble_.spend(place, cornerCount(geometry) * occlusion_.wallCount());
+            shape.covered = occlusion_.inside(scope, geometry, state.edge);
+        }
         return true;
     }
+    if (state.tile && state.tile->intact && !fills) {
+        frame.covered.overlay = state.tile->area;
+        frame.covered.place = place;
+    }
+    if (dropped) return false;
     shape.asset = state.asset->asset;
     if (shape.op != ShapeOp::Root) shape.op = ShapeOp::Insert;
     // Asset (y up) -> scope -> building (y up) -> world (z up): (x, y, z) -> (x, -z, y).
     const glm::dmat3 worldFromCga(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
     const glm::dmat3 turn = worldFromCga * state.scope.axes;
-    const glm::dvec3 offset(footprint_.outline.outer[0], footprint_.base);
+    const glm::dvec3 offset(footprintCorner(footprint_), footprint_.base);
     const glm::dmat4x3& local = state.asset->localFromAsset;
     for (int k = 0; k < 3; ++k) shape.worldFromAsset[k] = turn * local[k];
     shape.worldFromAsset[3] = offset + worldFromCga * state.scope.origin + turn * local[3];
     shape.placement = AssetPlacement::Overlay;
-    if (fillsTile(state)) {
-        shape.placement = AssetPlacement::Fill;
-        addPolygons(state.tile->scope, *state.tile->geometry, shape);
-        shape.surface = surfaceOf(state.look);
-        if (state.tile->intact) frame.covered.planar = state.tile->area;
-        return shape.polygonCount > 0;
+    if (!fills) {
+        addTrim(state, shape);
+        return true;
     }
-    if (state.tile && state.tile->intact) {
-        frame.covered.overlay = state.tile->area;
-        frame.covered.place = place;
-    }
-    return true;
+    shape.placement = AssetPlacement::Fill;
+    addPolygons(state.tile->scope, *state.tile->geometry, shape);
+    shape.surface = surfaceOf(state.look);
+    if (state.tile->intact) frame.covered.planar = state.tile->area;
+    return shape.polygonCount > 0;
 }
 
 } // namespace helio::cga

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "city/grammar/error_list.h"
 #include "city/grammar/limits.h"
 
 namespace helio::cga {
@@ -23,31 +24,31 @@ bool isNamePart(char c)
     return isNameStart(c) || isDigit(c);
 }
 
-/// Walks the text once; `error` is set at the first thing that is no token.
+/// Walks the text once.
 class Scanner
 {
 public:
-    Scanner(std::string_view text, std::string_view fileName) : text_(text), fileName_(fileName) {}
+    Scanner(std::string_view text, u32 file, ErrorList& errors) : text_(text), errors_(errors) { place_.file = file; }
 
-    Result<std::vector<Token>> run()
+    std::vector<Token> run()
     {
-        if (text_.size() > kMaxSourceBytes)
-            return errorAt(
-                fileName_, {},
-                concat("the file has ", text_.size(), " bytes; rule files are limited to ", kMaxSourceBytes));
-        if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
-        std::vector<Token> tokens;
-        while (skipSpace()) {
-            Token token;
-            token.place = place_;
-            if (!readToken(token)) return error_;
-            tokens.push_back(std::move(token));
+        if (text_.size() > kMaxSourceBytes) {
+            report(place_,
+                   concat("the file has ", text_.size(), " bytes; rule files are limited to ", kMaxSourceBytes));
+            text_ = {};
+            add(TokenKind::Bad);
         }
-        if (!error_.message.empty()) return error_;
-        Token end;
-        end.place = place_;
-        tokens.push_back(end);
-        return tokens;
+        if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
+        while (skipSpace()) {
+            add(TokenKind::Bad);
+            readToken(tokens_.back());
+            tokens_.back().end = u32(at_);
+            if (tokens_.back().kind == TokenKind::Bad && tokens_.size() > 1 &&
+                tokens_[tokens_.size() - 2].kind == TokenKind::Bad)
+                tokens_.pop_back();
+        }
+        add(TokenKind::End);
+        return std::move(tokens_);
     }
 
 private:
@@ -58,19 +59,28 @@ private:
         for (; count > 0 && at_ < text_.size(); --count) {
             const char c = text_[at_++];
             if (c == '\n')
-                place_ = {place_.line + 1, 1};
+                place_ = {place_.line + 1, 1, place_.file};
             else if ((c & 0xC0) != 0x80)
                 ++place_.column; // a UTF-8 character counts as one column
         }
     }
 
-    bool fail(Place place, std::string_view message)
+    void add(TokenKind kind)
     {
-        error_ = errorAt(fileName_, place, message);
-        return false;
+        Token& token = tokens_.emplace_back();
+        token.kind = kind;
+        token.place = place_;
+        token.begin = token.end = u32(at_);
     }
 
-    /// Moves to the next token; false at the end of the text or on an error.
+    /// One mistake a line: what follows the first is often its consequence.
+    void report(Place place, std::string_view message)
+    {
+        if (place.line != reportedLine_) errors_.report(place, message);
+        reportedLine_ = place.line;
+    }
+
+    /// Moves to the next token; false at the end of the text.
     bool skipSpace()
     {
         while (at_ < text_.size()) {
@@ -82,7 +92,12 @@ private:
             } else if (c == '/' && peek(1) == '*') {
                 const Place start = place_;
                 const size_t end = text_.find("*/", at_ + 2);
-                if (end == std::string_view::npos) return fail(start, "this comment is never closed: end it with */");
+                if (end == std::string_view::npos) {
+                    report(start, "this comment is never closed: end it with */");
+                    add(TokenKind::Bad);
+                    advance(text_.size() - at_);
+                    return false;
+                }
                 advance(end + 2 - at_);
             } else
                 return true;
@@ -90,7 +105,7 @@ private:
         return false;
     }
 
-    bool readToken(Token& token)
+    void readToken(Token& token)
     {
         const char c = peek();
         if (c == '"') return readText(token);
@@ -103,44 +118,46 @@ private:
                 while (isNamePart(peek())) advance();
             }
             if (peek() == '.') advance(); // a terminal: `Wall.`
+            if (at_ - begin > kMaxNameBytes)
+                return report(token.place, concat("names are limited to ", kMaxNameBytes, " bytes"));
             token.kind = TokenKind::Name;
             token.text = text_.substr(begin, at_ - begin);
-            return true;
+            return;
         }
         static constexpr std::string_view kSigns[] = {"-->", "==", "!=", "<=", ">=", "&&", "||", ":=", "=:"};
-        token.kind = TokenKind::Sign;
         for (std::string_view sign : kSigns) {
             if (text_.substr(at_, sign.size()) != sign) continue;
+            token.kind = TokenKind::Sign;
             token.text = sign;
-            advance(sign.size());
-            return true;
+            return advance(sign.size());
         }
         if (std::string_view("+-*/%<>!=~'(){}[]|:,;@").find(c) == std::string_view::npos) {
             const bool printable = c > ' ' && c < 0x7F;
-            return fail(
-                place_,
-                printable
-                    ? concat("the character '", c, "' has no meaning in CGA")
-                    : std::string(
-                          "this character has no meaning in CGA; outside strings and comments only ASCII is used"));
+            report(place_, printable ? concat("the character '", c, "' has no meaning in CGA")
+                                     : std::string("this character has no meaning in CGA; outside strings and comments "
+                                                   "only ASCII is used"));
+            // A run of them is one mistake.
+            do advance();
+            while (at_ < text_.size() && (u8(peek()) >= 0x7F || (u8(peek()) < ' ' && peek() != '\n')));
+            return;
         }
+        token.kind = TokenKind::Sign;
         token.text = c;
         advance();
-        return true;
     }
 
-    bool readText(Token& token)
+    void readText(Token& token)
     {
-        token.kind = TokenKind::Text;
         advance();
         for (;;) {
             const char c = peek();
             if (at_ >= text_.size() || c == '\n')
-                return fail(token.place, "this string is never closed: end it with \" on the same line");
+                return report(token.place, "this string is never closed: end it with \" on the same line");
             if (c == '"') break;
             if (c == '\\') {
                 advance();
                 const char escaped = peek();
+                if (escaped == '\n' || at_ >= text_.size()) continue;
                 token.text += escaped == 'n' ? '\n' : escaped == 't' ? '\t' : escaped;
             } else
                 token.text += c;
@@ -148,13 +165,12 @@ private:
         }
         advance();
         if (token.text.size() > kMaxTextBytes)
-            return fail(token.place, concat("strings are limited to ", kMaxTextBytes, " bytes"));
-        return true;
+            return report(token.place, concat("strings are limited to ", kMaxTextBytes, " bytes"));
+        token.kind = TokenKind::Text;
     }
 
-    bool readNumber(Token& token)
+    void readNumber(Token& token)
     {
-        token.kind = TokenKind::Number;
         const size_t begin = at_;
         while (isDigit(peek())) advance();
         if (peek() == '.') advance();
@@ -167,14 +183,16 @@ private:
         token.text = text_.substr(begin, at_ - begin);
         const auto result = std::from_chars(token.text.data(), token.text.data() + token.text.size(), token.number);
         if (result.ec != std::errc() || !std::isfinite(token.number))
-            return fail(token.place, concat("the number ", token.text, " is out of range"));
-        return true;
+            return report(token.place, concat("the number ", token.text.substr(0, 40), " is out of range"));
+        token.kind = TokenKind::Number;
     }
 
-    std::string_view text_, fileName_;
+    std::string_view text_;
+    ErrorList& errors_;
     size_t at_ = 0;
     Place place_;
-    Error error_;
+    std::vector<Token> tokens_;
+    u32 reportedLine_ = 0;
 };
 
 } // namespace
@@ -184,9 +202,9 @@ Error errorAt(std::string_view fileName, Place place, std::string_view message)
     return {concat(fileName, ":", place.line, ":", place.column, ": ", message)};
 }
 
-Result<std::vector<Token>> tokenize(std::string_view text, std::string_view fileName)
+std::vector<Token> tokenize(std::string_view text, u32 file, ErrorList& errors)
 {
-    return Scanner(text, fileName).run();
+    return Scanner(text, file, errors).run();
 }
 
 } // namespace helio::cga

@@ -9,10 +9,10 @@
 
 namespace helio::cga {
 
-/// A place in the rule text, both counted from 1.
+/// A place in the rule text: line and column are counted from 1, file is an index into Program::files.
 struct Place
 {
-    u32 line = 1, column = 1;
+    u32 line = 1, column = 1, file = 0;
 };
 
 enum class TokenKind : u8
@@ -21,6 +21,7 @@ enum class TokenKind : u8
     Number,
     Text,
     Sign,
+    Bad, ///< not a token: reported by the lexer, so that the parser says nothing more about it
     End
 };
 
@@ -32,11 +33,15 @@ struct Token
     Place place;
     std::string text; ///< as written; the unescaped value for Text
     double number = 0.0;
+    u32 begin = 0, end = 0; ///< bytes in the file
 };
 
-/// Splits CGA text into tokens, the last one End. Comments: `//` and `#` to the end of the line, `/* */`.
-/// Errors: `file:line:column: ...` for an unknown character, an unterminated string or comment, a number out of range.
-Result<std::vector<Token>> tokenize(std::string_view text, std::string_view fileName);
+class ErrorList;
+
+/// Splits the text of a file into tokens, the last one End. Comments: `//` and `#` to the end of the line, `/* */`.
+/// Reported: an unknown character, an unterminated string or comment, a number out of range, a file over
+/// kMaxSourceBytes; each leaves a Bad token.
+std::vector<Token> tokenize(std::string_view text, u32 file, ErrorList& errors);
 
 /// "file:line:column: message".
 Error errorAt(std::string_view fileName, Place place, std::string_view message);

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -93,6 +94,53 @@ struct Body
 /// Statement::mode of each operation that takes a bare word.
 inline constexpr u32 kNoAdjust = 4;   ///< split: axis 0..2, plus this
 inline constexpr u32 kWholeScope = 1; ///< r: about the scope's centre; i: the asset is z up
+/// i: how the asset is placed, added to kWholeScope.
+inline constexpr u32 kKeepSizeAndPosition = 2, kKeepSizeAlignPosition = 4;
+/// translate, rotate: a CoordinateSystem, plus this for absolute values.
+inline constexpr u32 kAbsolute = 4;
+enum class CoordinateSystem : u32
+{
+    Scope,
+    Pivot,
+    Object,
+    World
+};
+/// alignScopeToAxes: 0 = all three of the world, 1..3 = one of them; plus this for those of the object.
+inline constexpr u32 kObjectAxes = 4;
+/// alignScopeToGeometry: kZUp + FacePick * 2 + EdgePick * 8.
+inline constexpr u32 kZUp = 1;
+enum class FacePick : u32
+{
+    Number,
+    Lowest,
+    Largest,
+    Any
+};
+enum class EdgePick : u32
+{
+    Number,
+    Lowest,
+    Longest
+};
+/// cleanupGeometry: what is merged and removed, as bits.
+inline constexpr u32 kCleanVertices = 1, kCleanEdges = 2, kCleanFaces = 4;
+/// comp: what the shape is taken apart into.
+enum class ComponentKind : u32
+{
+    Faces,
+    Edges,     ///< an edge of two faces counts once
+    FaceEdges, ///< it counts for each of them
+    Vertices
+};
+/// offset: what is kept.
+enum class OffsetKeep : u32
+{
+    All,
+    Inside,
+    Border
+};
+inline constexpr u32 kByHeight = 1;  ///< roofs: the value is a height, not an angle
+inline constexpr u32 kAlongEdge = 1; ///< innerRectangle: along any long edge, not only along the scope's axes
 enum class ExtrudeMode : u32
 {
     FaceNormal,
@@ -109,6 +157,9 @@ enum class SetTarget : u32
     EmissiveR,
     EmissiveG,
     EmissiveB,
+    Opacity,
+    TrimVertical,
+    TrimHorizontal,
     Seedian,
     Ignored,
     FirstGlobal
@@ -152,12 +203,33 @@ struct Block
     bool repeat = false;
 };
 
+/// What stands in front of a declaration: `@Range(min=3, max=14)`. For user interfaces; only @StartRule has a meaning
+/// here.
+struct Annotation
+{
+    struct Argument
+    {
+        std::string key;              ///< empty without `key =`
+        std::string text;             ///< as written; the unescaped value of a string
+        std::optional<double> number; ///< its value, if it is one
+    };
+    std::string name; ///< without the @
+    std::vector<Argument> arguments;
+};
+
 struct Rule
 {
     u32 name = 0; ///< into Program::names
     Place place;
     std::vector<std::string> parameters;
+    /// The locals of `with (x := ..)`. They are evaluated once on entry, in this order, on the shape that enters, and
+    /// appended to the values of the parameters: local k is ExprKind::Parameter with index parameters.size() + k, and
+    /// may use the locals before it.
+    std::vector<Expr> locals;
     Body body;
+    std::vector<std::string> localNames;
+    u32 scope = 0; ///< into Program::scopes
+    std::vector<Annotation> annotations;
 };
 
 enum class GlobalKind : u8
@@ -174,17 +246,43 @@ struct Global
     Place place;
     std::vector<std::string> parameters;
     Expr value;
+    std::vector<Expr> locals; ///< of `with`, as Rule::locals
+    std::vector<std::string> localNames;
+    u32 scope = 0;        ///< into Program::scopes: where the names in `value` are looked up
+    std::string property; ///< the name without its import's id: what the properties of footprints are called
+    std::string source;   ///< the value as written
+    std::vector<Annotation> annotations;
+};
+
+/// A text that was read for a program: the rule file itself, or one that it imports.
+struct SourceFile
+{
+    std::string name; ///< as errors print it; for an import: relative to the folder of the importing file
+    std::string text;
+};
+
+/// An import that was carried out.
+struct Import
+{
+    u32 scope = 0, file = 0; ///< into Program::scopes and Program::files
+    u32 importer = 0;        ///< the scope of the importing file
+    std::string style;
 };
 
 /// A rule file after parsing: every name is resolved, so deriving looks nothing up by text.
 struct Program
 {
-    std::string fileName;
+    std::string fileName;            ///< files[0].name
+    std::vector<SourceFile> files;   ///< Place::file is an index into it
+    std::vector<std::string> scopes; ///< "" of the rule file itself, `id.` of an import, `id.id.` of an import's import
     std::vector<std::string> names;
     std::vector<Rule> rules;
     std::vector<Global> globals;
     std::map<std::pair<std::string, u32>, u32> ruleIndex, globalIndex; ///< (name, number of parameters) -> index
     u32 startRule = kNoIndex;
+    std::vector<Import> imports;
+    std::vector<std::string> styles;   ///< of the rule file itself, Default first
+    std::string style = "Default";     ///< the one that is in force
     std::vector<std::string> warnings; ///< of parsing: what is read but has no effect
 };
 

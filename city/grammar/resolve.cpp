@@ -13,16 +13,21 @@ namespace {
 class Resolver
 {
 public:
-    explicit Resolver(Program& program) : program_(program) {}
+    Resolver(Program& program, const BrokenNames& broken, ErrorList& errors)
+        : program_(program), broken_(broken), errors_(errors)
+    {
+    }
 
-    Status run()
+    void run()
     {
         for (Global& global : program_.globals) {
-            parameters_ = &global.parameters;
+            enter(global.scope, global.parameters);
+            resolveLocals(global.locals, global.localNames);
             resolve(global.value);
         }
         for (Rule& rule : program_.rules) {
-            parameters_ = &rule.parameters;
+            enter(rule.scope, rule.parameters);
+            resolveLocals(rule.locals, rule.localNames);
             resolve(rule.body);
         }
         if (program_.startRule == kNoIndex) {
@@ -31,19 +36,33 @@ public:
         } else if (const Rule& start = program_.rules[program_.startRule]; !start.parameters.empty()) {
             fail(start.place, "the start rule must not have parameters");
         }
-        if (!error_.message.empty()) return error_;
-        return Nothing{};
     }
 
 private:
-    void fail(Place place, std::string_view message)
+    void fail(Place place, std::string_view message) { errors_.report(place, message); }
+
+    /// From here on, names are those that a declaration of this scope sees.
+    void enter(u32 scope, const std::vector<std::string>& parameters)
     {
-        if (error_.message.empty()) error_ = errorAt(program_.fileName, place, message);
+        prefix_ = program_.scopes[scope];
+        values_.clear();
+        for (u32 k = 0; k < parameters.size(); ++k) values_[parameters[k]] = k;
+        valueCount_ = u32(parameters.size());
     }
+
+    /// A local sees the parameters and the locals before it.
+    void resolveLocals(std::vector<Expr>& locals, const std::vector<std::string>& names)
+    {
+        for (size_t k = 0; k < locals.size(); ++k) {
+            resolve(locals[k]);
+            values_[names[k]] = valueCount_++;
+        }
+    }
+
     void warnOnce(Place place, const std::string& name, std::string_view message)
     {
         if (warned_.insert(name).second)
-            program_.warnings.push_back(errorAt(program_.fileName, place, message).message);
+            program_.warnings.push_back(errorAt(program_.files[place.file].name, place, message).message);
     }
 
     // ---- expressions
@@ -55,14 +74,13 @@ private:
         }
         const u32 argCount = u32(expr.args.size());
         if (argCount == 0) {
-            const auto parameter = std::find(parameters_->begin(), parameters_->end(), expr.text);
-            if (parameter != parameters_->end()) {
+            if (const auto value = values_.find(expr.text); value != values_.end()) {
                 expr.kind = ExprKind::Parameter;
-                expr.index = u32(parameter - parameters_->begin());
+                expr.index = value->second;
                 return;
             }
         }
-        if (const auto global = program_.globalIndex.find({expr.text, argCount});
+        if (const auto global = program_.globalIndex.find({prefix_ + expr.text, argCount});
             global != program_.globalIndex.end()) {
             expr.kind = ExprKind::Global;
             expr.index = global->second;
@@ -77,10 +95,9 @@ private:
         if (const auto info = findFunction(expr.text)) return resolveFunction(expr, *info);
         if (const std::string_view advice = refusedFunction(expr.text); !advice.empty())
             return fail(expr.place, concat("the function '", expr.text, "' is not supported: ", advice));
-        for (const Global& global : program_.globals)
-            if (global.name == expr.text)
-                return fail(expr.place,
-                            concat("'", expr.text, "' takes ", global.parameters.size(), " arguments, not ", argCount));
+        if (broken_.has(prefix_ + expr.text)) return;
+        if (const auto count = otherCount(program_.globalIndex, prefix_ + expr.text))
+            return fail(expr.place, concat("'", expr.text, "' takes ", *count, " arguments, not ", argCount));
         fail(expr.place, concat("unknown ", argCount > 0 ? "function" : "name", " '", expr.text,
                                 "': declare it with attr, const or as a function, or quote it if it is text"));
     }
@@ -120,6 +137,15 @@ private:
         return high > 50 ? concat("at least ", low) : concat(low, " to ", high);
     }
 
+    /// The number of parameters of anything of this name.
+    static std::optional<u32> otherCount(const std::map<std::pair<std::string, u32>, u32>& index,
+                                         const std::string& name)
+    {
+        const auto found = index.lower_bound({name, 0});
+        if (found == index.end() || found->first.first != name) return {};
+        return found->first.second;
+    }
+
     // ---- statements
     void resolve(Body& body)
     {
@@ -147,14 +173,14 @@ private:
             return fail(statement.place,
                         concat("unknown operation '", name, "': only split and comp take a block { .. }"));
         statement.kind = StatementKind::Rule;
-        if (const auto rule = program_.ruleIndex.find({name, argCount}); rule != program_.ruleIndex.end()) {
+        if (const auto rule = program_.ruleIndex.find({prefix_ + name, argCount}); rule != program_.ruleIndex.end()) {
             statement.rule = rule->second;
+            statement.name = program_.rules[rule->second].name;
             return;
         }
-        for (const Rule& rule : program_.rules)
-            if (program_.names[rule.name] == name)
-                return fail(statement.place,
-                            concat("rule '", name, "' takes ", rule.parameters.size(), " arguments, not ", argCount));
+        if (broken_.has(prefix_ + name)) return;
+        if (const auto count = otherCount(program_.ruleIndex, prefix_ + name))
+            return fail(statement.place, concat("rule '", name, "' takes ", *count, " arguments, not ", argCount));
         if (argCount > 0)
             return fail(statement.place,
                         concat("unknown operation or rule '", name, "': README.md in city/grammar lists what is read"));
@@ -180,9 +206,10 @@ private:
     {
         statement.op = info.op;
         if (info.op == Operation::Ignored) {
-            warnOnce(statement.place, name,
-                     concat("'", name,
-                            "' is read and ignored: surfaces have one colour, textures and labels are not supported"));
+            warnOnce(statement.place, name == "label" ? "label" : "texture",
+                     name == "label" ? concat("'label' is read and ignored: touches(inter) asks about all neighbours")
+                                     : concat("'", name, "' and other texture operations are read and ignored: surfaces ",
+                                              "have one colour"));
             statement.args.clear();
             return;
         }
@@ -194,6 +221,10 @@ private:
             return fail(statement.place,
                         concat(info.hasBlock ? "a block { .. } is missing after '" : "no block { .. } belongs after '",
                                name, "': write ", info.usage));
+        if (info.op == Operation::Set && argCount > 0) { // words.cpp looks the attribute up without a scope
+            std::string& word = statement.args[0].value.text;
+            if (program_.globalIndex.count({prefix_ + word, 0}) > 0) word = prefix_ + word;
+        }
         const WordsResult words = resolveWords(statement, program_);
         if (words.error) return fail(words.place, *words.error);
         if (!words.ignored.empty())
@@ -225,17 +256,28 @@ private:
     }
 
     Program& program_;
-    const std::vector<std::string>* parameters_ = nullptr;
+    const BrokenNames& broken_;
+    ErrorList& errors_;
+    std::string prefix_;                ///< of the names that the declaration at hand sees
+    std::map<std::string, u32> values_; ///< its parameters and locals
+    u32 valueCount_ = 0;
     std::map<std::string, u32> nameIndex_;
     std::set<std::string> warned_;
-    Error error_;
 };
 
 } // namespace
 
-Status resolveProgram(Program& program)
+bool BrokenNames::has(const std::string& name) const
 {
-    return Resolver(program).run();
+    if (unknown || names.count(name) > 0) return true;
+    for (size_t dot = name.find('.'); dot != std::string::npos && !prefixes.empty(); dot = name.find('.', dot + 1))
+        if (prefixes.count(name.substr(0, dot + 1)) > 0) return true;
+    return false;
+}
+
+void resolveProgram(Program& program, const BrokenNames& broken, ErrorList& errors)
+{
+    Resolver(program, broken, errors).run();
 }
 
 } // namespace helio::cga

@@ -2,33 +2,60 @@
 // The operations of Interpreter that divide the current shape.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "city/grammar/clip.h"
 #include "city/grammar/component.h"
 #include "city/grammar/interpreter.h"
+#include "city/grammar/pieces.h"
 #include "city/grammar/split_sizes.h"
 
 namespace helio::cga {
 
 namespace {
 
-/// Gives a state other geometry, with a tile of its own if it is planar.
-void replaceGeometry(ShapeState& state, const Scope& scope, Geometry geometry, bool planar)
-{
-    state.scope = scope;
-    state.pivot = scope.origin;
-    state.pivotAxes = scope.axes;
-    state.footprint = false;
-    auto shared = std::make_shared<const Geometry>(std::move(geometry));
-    state.geometry = shared;
-    state.tile = planar ? std::make_shared<const Tile>(Tile{scope, shared, area(*shared), state.intact}) : nullptr;
-}
+constexpr double kMinPiece = 1e-12; ///< m2: smaller pieces are rounding
 
+/// What comp.sel reads.
 std::string_view selectorName(Selector selector)
 {
     static constexpr std::string_view kNames[] = {"front", "right",    "back",       "left",   "top",    "bottom",
                                                   "side",  "vertical", "horizontal", "aslant", "nutant", "all"};
-    return u32(selector) < std::size(kNames) ? kNames[u32(selector)] : std::string_view("other");
+    if (u32(selector) < std::size(kNames)) return kNames[u32(selector)];
+    switch (selector) {
+    case Selector::Border:
+        return "border";
+    case Selector::Inside:
+        return "inside";
+    case Selector::Ridge:
+        return "ridge";
+    case Selector::Hip:
+        return "hip";
+    case Selector::Valley:
+        return "valley";
+    case Selector::Eave:
+        return "eave";
+    case Selector::Shape:
+        return "shape";
+    case Selector::Remainder:
+        return "remainder";
+    default:
+        return "other";
+    }
+}
+
+/// The trim planes of a face, from the coordinates of the scope to the frame of the building.
+std::shared_ptr<const std::vector<TrimPlane>> trimOf(const ShapeState& state, const std::vector<MeshEdge>& edges,
+                                                     u32 face)
+{
+    const glm::dvec3 up = glm::transpose(state.scope.axes) * glm::dvec3(0, 1, 0);
+    auto planes = std::make_shared<std::vector<TrimPlane>>(trimPlanesOf(*state.geometry, edges, face, up));
+    for (TrimPlane& trim : *planes) {
+        const glm::dvec3 normal = state.scope.axes * glm::dvec3(trim.plane);
+        trim.plane = glm::dvec4(normal, trim.plane.w - glm::dot(normal, state.scope.origin));
+    }
+    return planes;
 }
 
 } // namespace
@@ -76,15 +103,19 @@ void Interpreter::split(const Statement& statement, const ShapeState& state, Fra
     const auto parts = splitParts(state.scope.size[axis], items);
     if (!parts) return trouble_.fail(statement.place, parts.error().message);
 
-    const size_t corners = cornerCount(*state.geometry);
+    Geometry whole = *state.geometry;
+    if (state.footprint)
+        for (Face& face : whole.faces) face = numberedFace(face, true); // the parts' walls stay known
+    const size_t corners = cornerCount(whole);
     for (size_t k = 0; k < parts->size() && !trouble_.failed(); ++k) {
         const SplitPart& part = (*parts)[k];
         trouble_.spend(statement.place, corners);
-        Geometry piece = clipSlab(*state.geometry, axis, part.begin, part.end);
-        if (piece.faces.empty()) continue;
+        Geometry piece = clipSlab(whole, axis, part.begin, part.end);
+        const bool empty = whole.faces.empty(); // edges of comp(e) have only a scope
+        if (piece.faces.empty() && !empty) continue;
         ShapeState child = state;
         Scope scope = state.scope;
-        if (adjust) {
+        if (adjust && !empty) {
             fitScope(scope, piece);
         } else {
             glm::dvec3 offset(0.0);
@@ -100,38 +131,74 @@ void Interpreter::split(const Statement& statement, const ShapeState& state, Fra
     }
 }
 
-/// Makes one shape of all faces (`combine`), or one of each.
-void Interpreter::spawnFaces(const BlockElement& element, const std::vector<const Face*>& faces,
-                             const ShapeState& state, Frame& frame)
+void Interpreter::spawnPieces(const BlockElement& element, std::vector<Face> faces, const ShapeState& state,
+                              Frame& frame, ShapeOp op, OperationName name)
 {
     if (faces.empty()) return;
-    if (element.combine && faces.size() > 1) {
-        Geometry combined;
-        for (const Face* face : faces) combined.faces.push_back(*face);
+    std::vector<Geometry> pieces;
+    if (element.combine) pieces.emplace_back();
+    for (Face& face : faces) {
+        if (area(face.polygon) < kMinPiece) continue;
+        if (!element.combine) pieces.emplace_back();
+        pieces.back().faces.push_back(std::move(face));
+    }
+    for (size_t k = 0; k < pieces.size() && !trouble_.failed(); ++k) {
+        if (pieces[k].faces.empty()) continue;
         ShapeState child = state;
         Scope scope = state.scope;
-        fitScope(scope, combined);
-        child.intact = true;
-        const bool planar = isPlanar(combined);
-        replaceGeometry(child, scope, std::move(combined), planar);
-        child.edge = kNoIndex;
-        child.compSelector = selectorName(element.selector);
-        child.compIndex = 0.0;
-        spawnPart(element.body, std::move(child), frame, ShapeOp::Component, OperationName::Component);
-        return;
-    }
-    for (size_t k = 0; k < faces.size() && !trouble_.failed(); ++k) {
-        if (area(faces[k]->polygon) < 1e-12) continue;
-        ShapeState child = state;
-        auto [scope, geometry] = faceShape(state.scope, *faces[k]);
-        child.intact = true;
-        replaceGeometry(child, scope, std::move(geometry), true);
-        child.edge = faces[k]->edge;
+        fitScope(scope, pieces[k]);
+        const bool planar = op == ShapeOp::Component ? isPlanar(pieces[k]) : state.tile && isPlanar(pieces[k]);
+        if (op == ShapeOp::Component) child.intact = true;
+        replaceGeometry(child, scope, std::move(pieces[k]), planar);
+        if (op == ShapeOp::Component) child.edge = kNoIndex;
         child.compSelector = selectorName(element.selector);
         child.compIndex = double(k);
-        child.compTotal = double(faces.size());
+        child.compTotal = double(pieces.size());
+        spawnPart(element.body, std::move(child), frame, op, name);
+    }
+}
+
+/// Makes one shape of all components (`combine`), or one of each.
+void Interpreter::spawnComponents(const BlockElement& element, ComponentKind kind,
+                                  const std::vector<const Component*>& components, const std::vector<MeshEdge>& edges,
+                                  const ShapeState& state, Frame& frame)
+{
+    if (components.empty()) return;
+    const Geometry& geometry = *state.geometry;
+    if (element.combine && components.size() > 1) {
+        if (kind != ComponentKind::Faces)
+            return trouble_.fail(element.place,
+                                 "edges and corners do not make one shape: write ':' after the selector");
+        std::vector<Face> faces;
+        for (const Component* component : components) faces.push_back(geometry.faces[component->face]);
+        return spawnPieces(element, std::move(faces), state, frame, ShapeOp::Component, OperationName::Component);
+    }
+    for (size_t k = 0; k < components.size() && !trouble_.failed(); ++k) {
+        const Component& component = *components[k];
+        ShapeState child = state;
+        if (kind == ComponentKind::Faces) {
+            const Face& face = geometry.faces[component.face];
+            if (area(face.polygon) < kMinPiece) continue;
+            auto [scope, shape] = faceShape(state.scope, face);
+            child.intact = true;
+            replaceGeometry(child, scope, std::move(shape), true);
+            if (geometry.faces.size() > 1) child.trim = trimOf(state, edges, component.face);
+        } else {
+            child.intact = false;
+            replaceGeometry(child, edgeScope(state.scope, component), {}, false);
+        }
+        child.mirrored = glm::bvec3(false);
+        child.edge = component.edge;
+        child.compSelector = selectorName(element.selector);
+        child.compIndex = double(k);
+        child.compTotal = double(components.size());
         spawnPart(element.body, std::move(child), frame, ShapeOp::Component, OperationName::Component);
     }
+}
+
+SelectorContext Interpreter::selectorContext(const ShapeState& state, const std::optional<StreetSides>& streets) const
+{
+    return {glm::transpose(objectAxes_) * state.scope.axes, state.scope.axes, streets ? &*streets : nullptr};
 }
 
 void Interpreter::components(const Statement& statement, const ShapeState& state, Frame& frame)
@@ -140,29 +207,34 @@ void Interpreter::components(const Statement& statement, const ShapeState& state
     if (refuseAsset(statement, state)) return;
     const Geometry& geometry = *state.geometry;
     trouble_.spend(statement.place, cornerCount(geometry));
-    const glm::dmat3 objectFromScope = glm::transpose(objectAxes_) * state.scope.axes;
-    std::vector<bool> taken(geometry.faces.size(), false);
-    for (const BlockElement& element : statement.block->elements) {
+    const auto kind = ComponentKind(statement.mode);
+    const std::vector<BlockElement>& elements = statement.block->elements;
+    const bool borders = std::any_of(elements.begin(), elements.end(), [](const BlockElement& element) {
+        return element.selector == Selector::Border || element.selector == Selector::Inside;
+    });
+    u64 work = kind == ComponentKind::Vertices ? u64(cornerCount(geometry)) * cornerCount(geometry) / 8 : 0;
+    trouble_.spend(statement.place, work);
+    if (trouble_.failed()) return;
+    work = 0;
+    const std::vector<MeshEdge> edges = meshEdges(geometry, borders, &work);
+    trouble_.spend(statement.place, work);
+    const std::vector<Component> all = componentsOf(geometry, edges, kind, state.scope.axes);
+    const std::optional<StreetSides> streets = streetSides(footprint_);
+    const SelectorContext context = selectorContext(state, streets);
+    std::vector<bool> taken(all.size(), false);
+    const Covered before = frame.covered;
+    for (const BlockElement& element : elements) {
         if (trouble_.failed()) return;
-        std::vector<const Face*> faces;
-        for (size_t k = 0; k < geometry.faces.size(); ++k) {
-            const Face& face = geometry.faces[k];
-            if (taken[k]) continue;
-            bool selected = k == element.selectorIndex;
-            if (element.selector != Selector::Index) {
-                const glm::dvec3 normal = unitNormal(face.polygon);
-                const SelectorFrame reference = frameOf(element.selector);
-                selected = selects(element.selector, reference == SelectorFrame::Scope   ? normal
-                                                     : reference == SelectorFrame::World ? state.scope.axes * normal
-                                                                                         : objectFromScope * normal) &&
-                           (face.outer || !isStreet(element.selector));
-            }
-            if (!selected) continue;
+        std::vector<const Component*> selected;
+        for (u32 k = 0; k < all.size(); ++k) {
+            if (taken[k] || !selects(element.selector, element.selectorIndex, all[k], k, context)) continue;
             taken[k] = true;
-            faces.push_back(&face);
+            selected.push_back(&all[k]);
         }
-        spawnFaces(element, faces, state, frame);
+        spawnComponents(element, kind, selected, edges, state, frame);
     }
+    // What the faces of a solid carry says nothing of the plane that the solid stands on.
+    if (!state.tile || !state.intact) frame.covered = before;
 }
 
 } // namespace helio::cga

@@ -11,20 +11,49 @@ namespace helio::cga {
 enum class Operation : u8
 {
     AlignScopeToAxes,
+    AlignScopeToGeometry,
+    AlignScopeToGeometryBBox,
     Center,
+    CleanupGeometry,
     Color,
     Component,
+    DeleteHoles,
     Extrude,
+    InnerRect,
+    InnerRectangle,
     Insert,
+    Mirror,
+    MirrorScope,
     Nil,
+    Offset,
+    PrimitiveCone,
     PrimitiveCube,
+    PrimitiveCylinder,
+    PrimitiveDisk,
     PrimitiveQuad,
+    PrimitiveSphere,
+    Print,
     Report,
     Resize,
+    RoofGable,
+    RoofHip,
+    RoofPyramid,
+    RoofShed,
+    ReverseNormals,
     Rotate,
+    RotateIn, ///< rotate(mode, system, x, y, z)
+    RotateScope,
     Set,
+    Setback,
+    SetbackPerEdge,
+    SetPivot,
+    ShapeL,
+    ShapeO,
+    ShapeU,
     Split,
     Translate,
+    Trim,
+    TranslateIn, ///< translate(mode, system, x, y, z)
     Ignored ///< texture calls and the like: parsed, without effect
 };
 
@@ -60,14 +89,19 @@ enum class Function : u8
     Float,
     Floor,
     Inside,
+    Int,
+    IsInf,
+    IsNan,
     Len,
     Ln,
     Log10,
     Max,
     Min,
+    Overlaps,
     P,
     Pow,
     Rand,
+    Replace,
     Rgb,
     Rint,
     Sin,
@@ -76,13 +110,17 @@ enum class Function : u8
     Substring,
     Tan,
     Touches,
-    GeometryArea,
+    GeometryArea, ///< the first of the geometry functions
+    GeometryBoundaryLength,
     GeometryHeight,
+    GeometryIsClosedSurface,
     GeometryIsConcave,
+    GeometryIsOriented,
     GeometryIsPlanar,
     GeometryIsRectangular,
     GeometryNEdges,
     GeometryNFaces,
+    GeometryNHoles,
     GeometryNVertices,
     GeometryVolume
 };
@@ -117,6 +155,12 @@ enum class ShapeAttribute : u8
     CompSel,
     Seedian,
     InitialShapeName,
+    InitialShapeOriginPx,
+    InitialShapeOriginPy,
+    InitialShapeOriginPz,
+    InitialShapeOriginOx,
+    InitialShapeOriginOy,
+    InitialShapeOriginOz,
     ColorR,
     ColorG,
     ColorB,
@@ -124,12 +168,15 @@ enum class ShapeAttribute : u8
     MaterialName,
     EmissiveR,
     EmissiveG,
-    EmissiveB
+    EmissiveB,
+    Opacity,
+    TrimVertical,
+    TrimHorizontal
 };
 
 std::optional<ShapeAttribute> findShapeAttribute(std::string_view name);
 
-/// What selects faces in comp(f). Quadrants and slopes are those of the scope; see classify() in component.h.
+/// What selects components in comp and setback. Quadrants and slopes are those of the scope; see component.h.
 enum class Selector : u8
 {
     Front,
@@ -163,6 +210,14 @@ enum class Selector : u8
     StreetBack,
     StreetLeft,
     StreetSide,
+    Border,    ///< at the rim of an open geometry
+    Inside,    ///< not at the rim
+    Ridge,     ///< edges of roofs: see RoofEdge in mesh_edges.h
+    Hip,
+    Valley,
+    Eave,
+    Shape,     ///< shapeL, shapeU, shapeO, innerRectangle: what they are about
+    Remainder, ///< setback and the like: what is left over
     Index
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/grammar/words.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 namespace helio::cga {
@@ -17,6 +19,85 @@ std::string takeWord(Statement& statement, size_t at = 0)
     const std::string word = value.text;
     statement.args.erase(statement.args.begin() + std::ptrdiff_t(at));
     return word;
+}
+
+/// Index of a word in a list, if it is there.
+std::optional<u32> indexIn(std::span<const std::string_view> words, std::string_view word)
+{
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) return {};
+    return u32(found - words.begin());
+}
+
+/// `x`, `world.y`, `object.xyz`: all three axes are 0, one of them 1 to 3; plus kObjectAxes.
+bool takeAxes(Statement& statement)
+{
+    std::string_view name;
+    const std::string word = takeWord(statement);
+    name = word;
+    if (name.rfind("object.", 0) == 0) {
+        statement.mode = kObjectAxes;
+        name.remove_prefix(7);
+    } else if (name.rfind("world.", 0) == 0) {
+        name.remove_prefix(6);
+    }
+    static constexpr std::string_view kAxes[] = {"xyz", "x", "y", "z"};
+    const auto axes = indexIn(kAxes, name);
+    statement.mode |= axes.value_or(0);
+    return axes.has_value();
+}
+
+/// `rel, world`: a CoordinateSystem, plus kAbsolute.
+bool takeSystem(Statement& statement)
+{
+    static constexpr std::string_view kModes[] = {"rel", "abs"}, kSystems[] = {"scope", "pivot", "object", "world"};
+    const auto mode = indexIn(kModes, takeWord(statement)), system = indexIn(kSystems, takeWord(statement));
+    if (!mode || !system) return false;
+    statement.mode = *system + *mode * kAbsolute;
+    return true;
+}
+
+/// `zUp, any, longest`; numbers stay in the arguments.
+bool takeAlignment(Statement& statement)
+{
+    static constexpr std::string_view kUps[] = {"yUp", "zUp"}, kFaces[] = {"", "world.lowest", "largest", "any"},
+                                      kEdges[] = {"", "world.lowest", "longest"};
+    const auto up = indexIn(kUps, takeWord(statement)), face = indexIn(kFaces, takeWord(statement));
+    if (!up || !face) return false;
+    const auto edge = indexIn(kEdges, takeWord(statement, *face == u32(FacePick::Number) ? 1 : 0));
+    if (!edge || (*face == u32(FacePick::Any) && *edge == u32(EdgePick::Number))) return false;
+    statement.mode = *up + *face * 2 + *edge * 8;
+    return true;
+}
+
+/// `zUp, keepSizeAndPosition, noCleanup` after the name of an asset.
+bool takeInsertMode(Statement& statement)
+{
+    if (statement.args.size() < 2) return true;
+    static constexpr std::string_view kUps[] = {"yUp", "zUp"},
+                                      kFits[] = {"alignSizeAndPosition", "keepSizeAndPosition",
+                                                 "keepSizeAlignPosition"},
+                                      kCleanups[] = {"numericalCleanup", "noCleanup"};
+    const auto up = indexIn(kUps, takeWord(statement, 1));
+    if (!up) return false;
+    statement.mode = *up * kWholeScope;
+    if (statement.args.size() < 2) return true;
+    const auto fit = indexIn(kFits, takeWord(statement, 1));
+    if (!fit) return false;
+    statement.mode |= *fit * 2;
+    // Assets are taken as they are: how they would be cleaned makes no difference.
+    return statement.args.size() < 2 || indexIn(kCleanups, takeWord(statement, 1)).has_value();
+}
+
+/// `byAngle` or `byHeight` in front of a roof's arguments. Any other name is a value.
+bool takeRoofKind(Statement& statement)
+{
+    static constexpr std::string_view kKinds[] = {"byAngle", "byHeight"};
+    const auto kind = indexIn(kKinds, statement.args[0].value.text);
+    if (!kind || statement.args[0].value.kind != ExprKind::Keyword) return true;
+    takeWord(statement);
+    statement.mode = *kind * kByHeight;
+    return !statement.args.empty();
 }
 
 bool takeExtrudeMode(Statement& statement)
@@ -36,7 +117,7 @@ bool takeExtrudeMode(Statement& statement)
 bool takeSetTarget(Statement& statement, const Program& program, std::string& ignored)
 {
     const std::string word = takeWord(statement);
-    static constexpr std::array<std::pair<std::string_view, SetTarget>, 9> kTargets = {
+    static constexpr std::array<std::pair<std::string_view, SetTarget>, 12> kTargets = {
         {{"material.color.r", SetTarget::ColorR},
          {"material.color.g", SetTarget::ColorG},
          {"material.color.b", SetTarget::ColorB},
@@ -45,6 +126,9 @@ bool takeSetTarget(Statement& statement, const Program& program, std::string& ig
          {"material.emissive.r", SetTarget::EmissiveR},
          {"material.emissive.g", SetTarget::EmissiveG},
          {"material.emissive.b", SetTarget::EmissiveB},
+         {"material.opacity", SetTarget::Opacity},
+         {"trim.vertical", SetTarget::TrimVertical},
+         {"trim.horizontal", SetTarget::TrimHorizontal},
          {"seedian", SetTarget::Seedian}}};
     for (const auto& [text, target] : kTargets)
         if (word == text) return statement.mode = u32(target), true;
@@ -63,12 +147,47 @@ bool takeSetTarget(Statement& statement, const Program& program, std::string& ig
 bool takeWords(Statement& statement, const Program& program, std::string& ignored)
 {
     switch (statement.op) {
-    case Operation::Component:
-        return takeWord(statement) == "f";
-    case Operation::AlignScopeToAxes: {
-        if (statement.args.empty()) return true;
-        statement.mode = 1;
-        return takeWord(statement) == "y";
+    case Operation::Component: {
+        static constexpr std::string_view kKinds[] = {"f", "e", "fe", "v"};
+        const auto kind = indexIn(kKinds, takeWord(statement));
+        statement.mode = kind.value_or(0);
+        return kind.has_value();
+    }
+    case Operation::InnerRectangle: {
+        static constexpr std::string_view kAlignments[] = {"scope", "edge"};
+        const auto alignment = indexIn(kAlignments, takeWord(statement));
+        statement.mode = alignment.value_or(0) * kAlongEdge;
+        return alignment.has_value();
+    }
+    case Operation::Offset: {
+        if (statement.args.size() < 2) return true;
+        static constexpr std::string_view kKeeps[] = {"all", "inside", "border"};
+        const auto keep = indexIn(kKeeps, takeWord(statement, 1));
+        statement.mode = keep.value_or(0);
+        return keep.has_value();
+    }
+    case Operation::RoofGable:
+    case Operation::RoofHip:
+    case Operation::RoofPyramid:
+    case Operation::RoofShed:
+        return takeRoofKind(statement);
+    case Operation::AlignScopeToAxes:
+        return statement.args.empty() || takeAxes(statement);
+    case Operation::AlignScopeToGeometry:
+        return takeAlignment(statement);
+    case Operation::AlignScopeToGeometryBBox: {
+        static constexpr std::string_view kPlanes[] = {"xy", "yx", "xz", "zx", "yz", "zy"};
+        const auto plane = indexIn(kPlanes, takeWord(statement));
+        statement.mode = plane.value_or(0);
+        return plane.has_value();
+    }
+    case Operation::CleanupGeometry: {
+        static constexpr std::string_view kComponents[] = {"vertices", "edges", "faces", "all"};
+        static constexpr u32 kBits[] = {kCleanVertices, kCleanVertices | kCleanEdges, kCleanVertices | kCleanFaces,
+                                        kCleanVertices | kCleanEdges | kCleanFaces};
+        const auto components = indexIn(kComponents, takeWord(statement));
+        statement.mode = kBits[components.value_or(0)];
+        return components.has_value();
     }
     case Operation::Center: {
         const std::string axes = takeWord(statement);
@@ -80,17 +199,22 @@ bool takeWords(Statement& statement, const Program& program, std::string& ignore
     }
     case Operation::Extrude:
         return takeExtrudeMode(statement);
-    case Operation::Insert: {
-        if (statement.args.size() == 1) return true;
-        const std::string word = takeWord(statement, 1);
-        statement.mode = word == "zUp" ? kWholeScope : 0;
-        return word == "zUp" || word == "yUp";
-    }
+    case Operation::Insert:
+        return takeInsertMode(statement);
     case Operation::Rotate: {
         if (statement.args.size() == 3) return true;
         const std::string word = takeWord(statement);
         statement.mode = word == "scopeCenter" ? kWholeScope : 0;
         return word == "scopeCenter" || word == "scopeOrigin";
+    }
+    case Operation::RotateIn:
+    case Operation::TranslateIn:
+        return takeSystem(statement);
+    case Operation::SetPivot: {
+        static constexpr std::string_view kMaps[] = {"xyz", "yzx", "zxy"};
+        const auto map = indexIn(kMaps, takeWord(statement));
+        statement.mode = map.value_or(0);
+        return map.has_value();
     }
     case Operation::Split: {
         const std::string axis = takeWord(statement);
@@ -137,9 +261,11 @@ WordsResult resolveWords(Statement& statement, const Program& program)
     for (BlockElement& element : statement.block->elements)
         if (!element.nested && !takeSelector(element)) {
             result.place = element.place;
-            result.error = concat("unknown selector '", element.size.value.text,
-                                  "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, "
-                                  "nutant, all, a number, or object., world., street. forms");
+            result.error =
+                concat("unknown selector '", element.size.value.text,
+                       "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, "
+                       "nutant, all, border, inside, a number, or object., world., street. forms; ridge, hip, "
+                       "valley, eave for edges; shape, remainder for what is cut off");
             return result;
         }
     return result;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "city/base/check.h"
 
@@ -24,6 +25,18 @@ Box2 boxOf(std::span<const glm::dvec2> points)
     Box2 box{points[0], points[0]};
     for (const glm::dvec2& point : points) box = {glm::min(box.low, point), glm::max(box.high, point)};
     return box;
+}
+
+Box2 boxOf(const glm::dvec2& a, const glm::dvec2& b)
+{
+    return {glm::min(a, b), glm::max(a, b)};
+}
+
+glm::dvec2 nearestOnSegment(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point)
+{
+    const glm::dvec2 along = b - a;
+    const double squared = glm::dot(along, along);
+    return squared > 0.0 ? a + std::clamp(glm::dot(point - a, along) / squared, 0.0, 1.0) * along : a;
 }
 
 BoxGrid::CellRange BoxGrid::cellsOf(const Box2& box) const

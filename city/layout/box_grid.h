@@ -23,6 +23,11 @@ struct Box2
 /// The box around points; at least one.
 Box2 boxOf(std::span<const glm::dvec2> points);
 
+/// The box of a segment.
+Box2 boxOf(const glm::dvec2& a, const glm::dvec2& b);
+/// The point of the segment a-b that is nearest to `point`.
+glm::dvec2 nearestOnSegment(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point);
+
 /// Finds the boxes near a box: items are kept by the square cells that they touch.
 class BoxGrid
 {
@@ -37,7 +42,7 @@ private:
     struct CellRange
     {
         i64 x0, x1, y0, y1;
-        bool isLarge() const { return (x1 - x0 + 1) * (y1 - y0 + 1) > 4096; }
+        bool isLarge() const { return double(x1 - x0 + 1) * double(y1 - y0 + 1) > 4096.0; }
     };
     struct Entry
     {

@@ -22,16 +22,48 @@ inline u32 below(Random& random, u32 count)
     return u32(random.uniform() * count);
 }
 
-/// A piece of land between streets: its border is where the facades stand.
-struct CityBlock
+enum class StreetKind : u8
 {
-    Ring2 outline; ///< counter-clockwise, convex corners or slight bends
-    bool isSquare = false;
+    Avenue, ///< straight, 20 to 24 m between the facades
+    Street, ///< 11 to 14 m
+    Lane    ///< 7 to 8 m
 };
 
-/// Plans `columns` x `rows` blocks around the origin on about `size` metres: a warped and turned lattice of bent
-/// streets 8 to 14 m wide with one avenue of 20 m, some corners cut; one inner block is the square.
-std::vector<CityBlock> planBlocks(Random& random, u32 columns, u32 rows, double size);
+struct CityStreet
+{
+    Ring2 line; ///< centre-line, open
+    StreetKind kind = StreetKind::Street;
+    double width = 0.0; ///< m between the blocks on both sides
+};
+
+enum class BlockUse : u8
+{
+    Perimeter, ///< houses around a court
+    Rows,      ///< row-houses between gardens
+    Towers,    ///< towers on a paved place
+    Square     ///< green
+};
+
+/// A piece of land between streets: its border is where the facades of a perimeter block stand.
+struct CityBlock
+{
+    Ring2 outline;         ///< counter-clockwise, convex corners or slight bends
+    std::vector<u32> side; ///< per edge: 0 south, 1 east, 2 north, 3 west in the lattice; cut corners kNoIndex
+    BlockUse use = BlockUse::Perimeter;
+};
+
+struct CityPlan
+{
+    std::vector<CityBlock> blocks;
+    std::vector<CityStreet> streets; ///< one between two crossings
+    Ring2 border;                    ///< the outermost centre-lines, counter-clockwise
+};
+
+/// Plans a district of about 300 x 250 m around the origin: a warped, fanned and turned lattice of four by three cells
+/// with bent streets, one avenue, and lanes, some of which halve blocks; one row of cells is shallow. Two neighbours of
+/// this row hold row-houses, an inner cell is the square, a deep one the place of the towers; the others are perimeter
+/// blocks, with some corners cut.
+CityPlan planCity(Random& random);
 
 /// Rounds to 1 mm, so that corners compare equal and do not depend on the last bit of the machine's sine.
 glm::dvec2 onMillimetre(const glm::dvec2& point);
@@ -41,5 +73,8 @@ glm::dvec2 lineCrossing(const glm::dvec2& p, const glm::dvec2& d, const glm::dve
 
 /// The unit normal to the left of the direction from a to b.
 glm::dvec2 leftNormal(const glm::dvec2& a, const glm::dvec2& b);
+
+/// The rectangle from `corner`, `length` m along the unit vector `along` and `width` m to its left, on the millimetre.
+Polygon2 orientedBox(const glm::dvec2& corner, const glm::dvec2& along, double length, double width);
 
 } // namespace helio

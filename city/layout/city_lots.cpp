@@ -79,7 +79,7 @@ std::vector<CornerHouse> findCorners(Random& random, const Ring2& ring)
 
 std::vector<RowHouse> planRow(Random& random, double length)
 {
-    const u32 count = std::max(1u, u32(std::lround(length / range(random, 16.0, 21.0))));
+    const u32 count = std::max(1u, u32(std::lround(length / range(random, 13.0, 19.0))));
     std::vector<RowHouse> row(count);
     double sum = 0.0;
     for (RowHouse& house : row) {

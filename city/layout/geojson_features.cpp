@@ -77,7 +77,6 @@ public:
     {
         if (!root.is_object()) return fail("the file holds no JSON object; export the footprints as GeoJSON");
         readFrame(root);
-        if (const Status frame = checkCrs(); !frame) return frame.error();
         const std::string type = textOf(root, "type");
         if (type == "FeatureCollection") {
             const json* features = find(root, "features");
@@ -109,18 +108,12 @@ private:
         const json* metadata = find(root, "metadata");
         if (!metadata) return;
         if (const std::string crs = textOf(*metadata, "crs"); !crs.empty()) file_.crs = crs;
+        const std::string units = textOf(*metadata, "units");
+        file_.metric = units == "m" || units == "metre" || units == "meter" || units == "metres" || units == "meters";
         const json* origin = find(*metadata, "origin");
         if (!origin || !origin->is_array()) return;
         for (u32 i = 0; i < std::min<size_t>(3, origin->size()); ++i)
             if ((*origin)[i].is_number()) file_.origin[int(i)] = (*origin)[i].get<double>();
-    }
-
-    Status checkCrs() const
-    {
-        for (const char* degrees : {"4326", "CRS84", "4258", "4979"})
-            if (file_.crs.find(degrees) != std::string::npos)
-                return fail(concat("CRS ", file_.crs, " is in degrees; reproject to a metric one (UTM, say)"));
-        return Nothing{};
     }
 
     void readFeature(const json& value, size_t number)
@@ -152,7 +145,8 @@ private:
                 feature.height = positive(value, "height", kLargestHeight, feature);
                 continue;
             }
-            if (key == "levels") feature.levels = positive(value, "levels", kLargestHeight / 2.0, feature);
+            const bool isLevels = key == "levels" || (key == "building:levels" && !properties.contains("levels"));
+            if (isLevels) feature.levels = positive(value, key.c_str(), kLargestHeight / 2.0, feature);
             if (value.is_number()) feature.attributes[key] = value.get<double>();
             if (value.is_boolean()) feature.attributes[key] = value.get<bool>();
             if (value.is_string()) feature.attributes[key] = value.get<std::string>();
@@ -162,32 +156,63 @@ private:
     void readGeometry(const json& geometry, GeoFeature& feature)
     {
         std::string trouble;
+        const size_t streets = file_.streets.size();
         collect(geometry, feature, trouble);
         if (!trouble.empty()) return skip(feature, trouble);
-        file_.features.push_back(std::move(feature));
+        if (!feature.polygons.empty() || file_.streets.size() == streets) file_.features.push_back(std::move(feature));
     }
 
-    // Appends the polygons of a geometry; sets `trouble` if it is not usable. Collections nest no deeper than one
-    // level.
+    // Appends the polygons of a geometry, and its lines to the streets; sets `trouble` if it is not usable. Collections
+    // nest no deeper than one level.
     void collect(const json& geometry, GeoFeature& feature, std::string& trouble, bool nested = false)
     {
         const std::string type = textOf(geometry, "type");
         const json* list = find(geometry, type == "GeometryCollection" ? "geometries" : "coordinates");
-        const bool known = type == "Polygon" || type == "MultiPolygon" || (type == "GeometryCollection" && !nested);
+        const bool isLine = type == "LineString" || type == "MultiLineString";
+        const bool known =
+            isLine || type == "Polygon" || type == "MultiPolygon" || (type == "GeometryCollection" && !nested);
         if (!known) {
             trouble = concat(type.empty() ? "geometry without a type" : type.substr(0, 40), " is no footprint");
         } else if (!list || !list->is_array() || list->empty()) {
             trouble = concat(type, " without coordinates");
         } else if (type == "Polygon") {
             readPolygon(*list, feature, trouble);
+        } else if (type == "LineString") {
+            readLine(*list, trouble);
         } else {
             for (const json& part : *list) {
                 if (type == "MultiPolygon")
                     readPolygon(part, feature, trouble);
+                else if (isLine)
+                    readLine(part, trouble);
                 else
                     collect(part, feature, trouble, true);
             }
         }
+    }
+
+    // The points of a ring or line; false, with the trouble, if they are no pairs of numbers.
+    static bool readPoints(const json& list, const std::string& what, Ring2& points, std::string& trouble)
+    {
+        if (!list.is_array()) {
+            trouble = what + " is not an array of corners";
+            return false;
+        }
+        for (size_t i = 0; i < list.size(); ++i) {
+            const json& corner = list[i];
+            if (!corner.is_array() || corner.size() < 2 || !corner[0].is_number() || !corner[1].is_number()) {
+                trouble = concat(what, ", corner ", i, " is not a pair of numbers");
+                return false;
+            }
+            points.emplace_back(corner[0].get<double>(), corner[1].get<double>());
+        }
+        return true;
+    }
+
+    void readLine(const json& list, std::string& trouble)
+    {
+        Ring2 line;
+        if (readPoints(list, "line", line, trouble) && line.size() >= 2) file_.streets.push_back(std::move(line));
     }
 
     void readPolygon(const json& rings, GeoFeature& feature, std::string& trouble)
@@ -198,19 +223,8 @@ private:
         }
         Polygon2 polygon;
         for (size_t r = 0; r < rings.size(); ++r) {
-            if (!rings[r].is_array()) {
-                trouble = concat("ring ", r, " is not an array of corners");
-                return;
-            }
             Ring2 ring;
-            for (size_t i = 0; i < rings[r].size(); ++i) {
-                const json& corner = rings[r][i];
-                if (!corner.is_array() || corner.size() < 2 || !corner[0].is_number() || !corner[1].is_number()) {
-                    trouble = concat("ring ", r, ", corner ", i, " is not a pair of numbers");
-                    return;
-                }
-                ring.emplace_back(corner[0].get<double>(), corner[1].get<double>());
-            }
+            if (!readPoints(rings[r], concat("ring ", r), ring, trouble)) return;
             if (ring.size() > 1 && ring.front() == ring.back())
                 ring.pop_back();
             else

@@ -15,7 +15,7 @@ struct GeoFeature
     std::vector<Polygon2> polygons;              ///< as drawn but for the closing corner, in the file's coordinates
     u32 openRings = 0;                           ///< rings whose last corner was not the first one again
     std::optional<double> height;                ///< m, from properties.height; > 0
-    std::optional<double> levels;                ///< from properties.levels; > 0
+    std::optional<double> levels;                ///< from properties.levels or building:levels; > 0
     std::map<std::string, Attribute> attributes; ///< the other scalar properties
     std::vector<GivenFace> faces;                ///< walls and roofs that the file models, in its coordinates
 };
@@ -23,13 +23,16 @@ struct GeoFeature
 struct GeoFile
 {
     std::vector<GeoFeature> features; ///< those with polygons
+    std::vector<Ring2> streets;       ///< LineStrings: open lines of two points or more, in the file's coordinates
     glm::dvec3 origin{0.0};           ///< metadata.origin
     std::string crs;                  ///< metadata.crs, else the name in `crs`
+    bool metric = false;              ///< the file states that its coordinates are metres
     std::vector<std::string> notes;   ///< one line for a feature that is skipped or whose height cannot be read
 };
 
-/// Reads the text of a GeoJSON file (FeatureCollection, Feature, geometry or GeometryCollection). `name` stands for the
-/// file. Errors: not JSON (with line and byte), not GeoJSON, a CRS in degrees.
+/// Reads the text of a GeoJSON file (FeatureCollection, Feature, geometry or GeometryCollection): Polygon and
+/// MultiPolygon make features, LineString and MultiLineString streets. `name` stands for the file. Errors: not JSON
+/// (with line and byte), not GeoJSON.
 Result<GeoFile> readGeoFeatures(std::string_view text, std::string_view name);
 
 } // namespace helio

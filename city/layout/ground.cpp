@@ -8,8 +8,8 @@
 #include <map>
 
 #include "city/base/check.h"
-#include "city/layout/box_grid.h"
 #include "city/geometry/clip.h"
+#include "city/layout/box_grid.h"
 #include "city/layout/courts.h"
 #include "city/model/materials.h"
 
@@ -91,8 +91,12 @@ struct Cutter
         if (regions.size() == 1 && isFull(r, regions[0].paths)) return emitCells(r, regions[0].kind);
         if (regions.empty()) return;
         if (r.width() == 1 && r.height() == 1) {
-            for (const Region& region : regions)
-                for (const Polygon2& polygon : subtractToPolygons(region.paths, {})) emit(r, region.kind, polygon);
+            // Clipping rounds each region's corners by itself: what two of them claim goes to the earlier one.
+            Paths taken;
+            for (const Region& region : regions) {
+                for (const Polygon2& polygon : subtractToPolygons(region.paths, taken)) emit(r, region.kind, polygon);
+                if (regions.size() > 1) taken.insert(taken.end(), region.paths.begin(), region.paths.end());
+            }
             return;
         }
         CellRect low = r, high = r;

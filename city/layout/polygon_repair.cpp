@@ -9,6 +9,7 @@
 
 #include "city/base/check.h"
 #include "city/geometry/clip.h"
+#include "city/layout/validity.h"
 
 namespace helio {
 
@@ -66,18 +67,23 @@ bool turnsSharply(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     return std::abs(std::atan2(cross(b - a, c - b), glm::dot(b - a, c - b))) >= kStraightAngle;
 }
 
-u32 dropStraightCorners(Ring2& ring)
+// Corners marked by `keeps` stay.
+u32 dropStraightCorners(Ring2& ring, const std::vector<bool>& keeps)
 {
     const size_t n = ring.size();
     if (n <= 3) return 0;
+    const auto stays = [&](size_t i) {
+        return (i < keeps.size() && keeps[i]) || turnsSharply(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+    };
     size_t start = 0; // a true corner, so that no straight stretch runs over the ring's end
-    while (start < n && !turnsSharply(ring[(start + n - 1) % n], ring[start], ring[(start + 1) % n])) ++start;
+    while (start < n && !stays(start)) ++start;
     if (start == n) start = 0;
     Ring2 kept{ring[start]};
     size_t pendingBegin = 1; // corners dropped since the last kept one: [pendingBegin, k)
     for (size_t k = 1; k < n; ++k) {
-        const glm::dvec2 corner = ring[(start + k) % n], next = ring[(start + k + 1) % n];
-        bool straight = !turnsSharply(kept.back(), corner, next);
+        const size_t i = (start + k) % n;
+        const glm::dvec2 corner = ring[i], next = ring[(i + 1) % n];
+        bool straight = !(i < keeps.size() && keeps[i]) && !turnsSharply(kept.back(), corner, next);
         for (size_t p = pendingBegin; straight && p <= k; ++p)
             straight = distanceToLine(ring[(start + p) % n], kept.back(), next) < kStraightSag;
         if (straight) continue;
@@ -115,27 +121,6 @@ u32 collapseShortEdges(Ring2& ring)
     }
 }
 
-struct Segment
-{
-    glm::dvec2 a, b, low, high;
-    u32 ring, index;
-};
-
-bool segmentsMeet(const Segment& s, const Segment& t)
-{
-    if (s.low.y > t.high.y || t.low.y > s.high.y || s.low.x > t.high.x || t.low.x > s.high.x) return false;
-    const double a = cross(s.b - s.a, t.a - s.a), b = cross(s.b - s.a, t.b - s.a);
-    const double c = cross(t.b - t.a, s.a - t.a), d = cross(t.b - t.a, s.b - t.a);
-    return !((a > 0 && b > 0) || (a < 0 && b < 0) || (c > 0 && d > 0) || (c < 0 && d < 0));
-}
-
-// Neighbours on a ring meet at their common corner by right; they must not fold back onto each other.
-bool foldsBack(const Segment& s, const Segment& t)
-{
-    const glm::dvec2 along = s.b - s.a, next = t.b - t.a;
-    return cross(along, next) == 0.0 && glm::dot(along, next) < 0.0;
-}
-
 // The union of the rings. Parts that touch in a corner only are drawn apart by a millimetre each, so that all is
 // simple.
 std::vector<Polygon2> uniteRings(const Polygon2& polygon)
@@ -167,18 +152,18 @@ void orient(Ring2& ring, bool counterClockwise, RepairReport& report)
 }
 
 // Returns false when nothing with an area is left of the outer ring.
-bool tidyRings(Polygon2& polygon, RepairReport& report)
+bool tidyRings(Polygon2& polygon, RepairReport& report, bool keepsFirstEdge)
 {
-    const auto tidy = [&](Ring2& ring) {
+    const auto tidy = [&](Ring2& ring, const std::vector<bool>& keeps) {
         report.repeatedCorners += dropRepeats(ring);
         report.spikes += dropSpikes(ring);
         if (ring.size() < 3) return false;
-        report.straightCorners += dropStraightCorners(ring);
+        report.straightCorners += dropStraightCorners(ring, keeps);
         return ring.size() >= 3;
     };
-    if (!tidy(polygon.outer)) return false;
+    if (!tidy(polygon.outer, keepsFirstEdge ? std::vector<bool>{true, true} : std::vector<bool>{})) return false;
     const size_t holes = polygon.holes.size();
-    std::erase_if(polygon.holes, [&](Ring2& hole) { return !tidy(hole); });
+    std::erase_if(polygon.holes, [&](Ring2& hole) { return !tidy(hole, {}); });
     report.lostHoles += u32(holes - polygon.holes.size());
     return true;
 }
@@ -200,61 +185,38 @@ void collapse(Polygon2& polygon, RepairReport& report)
 
 bool isSimple(const Polygon2& polygon)
 {
-    std::vector<Segment> segments;
-    std::vector<const Ring2*> rings{&polygon.outer};
-    for (const Ring2& hole : polygon.holes) rings.push_back(&hole);
-    for (u32 r = 0; r < rings.size(); ++r) {
-        const Ring2& ring = *rings[r];
-        if (ring.size() < 3) return false;
-        for (u32 i = 0; i < ring.size(); ++i) {
-            const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-            segments.push_back({a, b, glm::min(a, b), glm::max(a, b), r, i});
-        }
-    }
-    std::sort(segments.begin(), segments.end(), [](const Segment& s, const Segment& t) { return s.low.x < t.low.x; });
-    for (size_t i = 0; i < segments.size(); ++i) {
-        for (size_t j = i + 1; j < segments.size() && segments[j].low.x <= segments[i].high.x; ++j) {
-            const Segment &s = segments[i], &t = segments[j];
-            const u32 n = u32(rings[s.ring]->size());
-            const bool sFirst = s.ring == t.ring && (s.index + 1) % n == t.index;
-            const bool tFirst = s.ring == t.ring && (t.index + 1) % n == s.index;
-            if (sFirst || tFirst) {
-                if (sFirst ? foldsBack(s, t) : foldsBack(t, s)) return false;
-            } else if (segmentsMeet(s, t)) {
-                return false;
-            }
-        }
-    }
-    for (size_t h = 0; h < polygon.holes.size(); ++h) {
-        if (!contains(polygon.outer, polygon.holes[h][0])) return false;
-        for (size_t other = 0; other < polygon.holes.size(); ++other)
-            if (other != h && contains(polygon.holes[other], polygon.holes[h][0])) return false;
-    }
-    return true;
+    const PolygonFindings findings = polygonFindings(polygon, 0);
+    return !findings.defect && findings.meetings == 0;
+}
+
+bool isStraightCorner(const glm::dvec2& before, const glm::dvec2& corner, const glm::dvec2& after)
+{
+    return !turnsSharply(before, corner, after) && distanceToLine(corner, before, after) < kStraightSag;
 }
 
 std::vector<Polygon2> cleanPolygon(Polygon2 polygon, RepairReport& report)
 {
+    if (!tidyRings(polygon, report, true)) return {};
+    orient(polygon.outer, true, report);
+    for (Ring2& hole : polygon.holes) orient(hole, false, report);
     std::vector<Polygon2> pieces;
-    if (tidyRings(polygon, report)) {
-        orient(polygon.outer, true, report);
-        for (Ring2& hole : polygon.holes) orient(hole, false, report);
-        if (isSimple(polygon)) {
-            pieces.push_back(std::move(polygon));
-        } else {
-            report.crossing = true;
-            pieces = uniteRings(polygon);
-        }
+    const bool isUnited = !isSimple(polygon);
+    if (isUnited) {
+        report.crossing = true;
+        pieces = uniteRings(polygon);
+    } else {
+        pieces.push_back(std::move(polygon));
     }
     std::vector<Polygon2> result;
     for (Polygon2& piece : pieces) {
         RepairReport unnamed; // repeats and spikes that uniting leaves on the grid are of our own making
-        if (!tidyRings(piece, unnamed)) continue;
+        if (isUnited && !tidyRings(piece, unnamed, false)) continue;
         const Polygon2 before = piece;
+        const u32 shortEdges = report.shortEdges;
         collapse(piece, report);
-        tidyRings(piece, unnamed);
+        if (report.shortEdges > shortEdges) tidyRings(piece, unnamed, !isUnited);
         // Collapsing may, rarely, push an outline through itself; then the short edges are the lesser evil.
-        if (!isSimple(piece) && isSimple(before)) piece = before;
+        if (!isSimple(piece)) piece = before;
         std::erase_if(piece.holes, [](const Ring2& hole) { return std::abs(signedArea(hole)) < 1e-2; });
         if (area(piece) >= kSmallPiece && 2.0 * area(piece) >= kSliverWidth * perimeter(piece.outer))
             result.push_back(std::move(piece));
@@ -264,18 +226,22 @@ std::vector<Polygon2> cleanPolygon(Polygon2 polygon, RepairReport& report)
     return result;
 }
 
-std::string describeRepairs(const RepairReport& report)
+std::vector<ImportNotes::Item> repairItems(const RepairReport& report)
 {
-    std::string text;
-    const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+    std::vector<ImportNotes::Item> items;
     const auto count = [](u32 n, const char* what) { return concat(n, " ", what, n == 1 ? "" : "s"); };
-    if (report.crossing) add("united crossing or touching rings");
-    if (report.repeatedCorners) add("dropped " + count(report.repeatedCorners, "repeated corner"));
-    if (report.spikes) add("removed " + count(report.spikes, "spike corner"));
-    if (report.lostHoles) add("dropped " + count(report.lostHoles, "hole") + " without area");
-    if (report.shortEdges) add("collapsed " + count(report.shortEdges, "edge") + " below 0.1 m");
-    if (report.smallPieces) add("dropped " + count(report.smallPieces, "piece") + " below 1 m2 or 0.1 m of width");
-    return text;
+    if (report.repeatedCorners)
+        items.emplace_back("repaired.duplicate_corners", "dropped " + count(report.repeatedCorners, "repeated corner"));
+    if (report.spikes) items.emplace_back("repaired.spikes", "removed " + count(report.spikes, "spike corner"));
+    if (report.crossing) items.emplace_back("repaired.united", "united crossing or touching rings");
+    if (report.lostHoles)
+        items.emplace_back("repaired.lost_holes", "dropped " + count(report.lostHoles, "hole") + " without area");
+    if (report.shortEdges)
+        items.emplace_back("repaired.short_edges", "collapsed " + count(report.shortEdges, "edge") + " below 0.1 m");
+    if (report.smallPieces)
+        items.emplace_back("repaired.small_pieces",
+                           "dropped " + count(report.smallPieces, "piece") + " below 1 m2 or 0.1 m of width");
+    return items;
 }
 
 } // namespace helio

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <string>
 #include <vector>
 
+#include "city/layout/import_notes.h"
 #include "city/model/polygon.h"
 
 namespace helio {
@@ -24,14 +24,17 @@ struct RepairReport
 /// and none in another.
 bool isSimple(const Polygon2& polygon);
 
-/// Makes simple polygons of an arbitrary one (coordinates within kGridLimit): repeats, spikes and straight corners are
-/// dropped, rings oriented (outer counter-clockwise), crossing rings united by non-zero filling on a grid of 0.1 mm,
-/// edges below 0.1 m collapsed, small pieces and slivers dropped. A clean polygon keeps its coordinates to the last
-/// bit.
+/// Makes simple polygons of an arbitrary one (coordinates within kGridLimit), step by step: repeats, spikes and
+/// straight corners are dropped (but for the ends of the first edge, which means something to rules), rings oriented
+/// (outer counter-clockwise), crossing rings united by non-zero filling on a grid of 0.1 mm, edges below 0.1 m
+/// collapsed, small pieces and slivers dropped. A clean polygon keeps its coordinates to the last bit.
 std::vector<Polygon2> cleanPolygon(Polygon2 polygon, RepairReport& report);
 
-/// The repairs in words, "repaired crossing outline, removed 1 spike"; empty if there were none. Reversed rings and
-/// straight corners are ordinary and not named.
-std::string describeRepairs(const RepairReport& report);
+/// True if a corner lies on the line between its neighbours, within 0.01 rad and 2 cm.
+bool isStraightCorner(const glm::dvec2& before, const glm::dvec2& corner, const glm::dvec2& after);
+
+/// The repairs, each with its count's name ("repaired.spikes") and its words ("removed 1 spike corner"). Reversed rings
+/// and straight corners are ordinary and not among them.
+std::vector<ImportNotes::Item> repairItems(const RepairReport& report);
 
 } // namespace helio

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
 
-#include "city/layout/courts.h"
+#include "city/layout/box_grid.h"
 
 namespace helio {
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kWallGap = 0.3;              // m
 constexpr double kAntiparallel = -0.98480775; // cos of 170 degrees
+constexpr double kSeam = 0.01;                // m
 
 struct Wall
 {
@@ -21,50 +23,71 @@ struct Wall
     u32 footprint;
 };
 
-struct Cover
-{
-    double from, to; // along the edge, 0..1
-    double height;
-};
-
-// The part of `wall` that `other` stands against, if any.
-bool coverOf(const Wall& wall, const Wall& other, Cover& cover)
+// The stretch of `wall` that `other` stands against, m along it; empty (to <= from) if there is none.
+CoveredSpan stretchOf(const Wall& wall, const Wall& other)
 {
     const glm::dvec2 along = wall.b - wall.a, against = other.b - other.a;
     const double length = glm::length(along), otherLength = glm::length(against);
-    if (length <= 0.0 || otherLength <= 0.0) return false;
-    if (glm::dot(along, against) > kAntiparallel * length * otherLength) return false;
-    const auto position = [&](const glm::dvec2& p) { return glm::dot(p - wall.a, along) / (length * length); };
+    if (length <= 0.0 || otherLength <= 0.0) return {};
+    if (glm::dot(along, against) > kAntiparallel * length * otherLength) return {};
+    const auto position = [&](const glm::dvec2& p) { return glm::dot(p - wall.a, along) / length; };
+    const auto distance = [&](const glm::dvec2& p) { return cross(along, p - wall.a) / length; };
     const double start = position(other.b), end = position(other.a); // antiparallel: b comes first
-    cover.from = std::max(0.0, start);
-    cover.to = std::min(1.0, end);
-    if (cover.to <= cover.from) return false;
-    for (const double t : {cover.from, cover.to}) {
-        const glm::dvec2 point = glm::mix(other.b, other.a, (t - start) / (end - start));
-        if (std::abs(cross(along, point - wall.a)) > kWallGap * length) return false;
+    const double first = distance(other.b), last = distance(other.a);
+    CoveredSpan span{std::max(0.0, start), std::min(length, end), 0.0};
+    // The distance runs linearly from `first` to `last`: keep where it is within the gap.
+    const double slope = (last - first) / (end - start);
+    for (const double side : {1.0, -1.0}) {
+        const double atBegin = side * (first + slope * (span.begin - start));
+        const double atEnd = side * (first + slope * (span.end - start));
+        if (atBegin > kWallGap && atEnd > kWallGap) return {};
+        const double crossing = start + (side * kWallGap - first) / slope;
+        if (atBegin > kWallGap) span.begin = crossing;
+        if (atEnd > kWallGap) span.end = crossing;
     }
-    return true;
+    return span;
 }
 
-// Length of the union of intervals.
-double unionLength(std::vector<Cover> covers)
+// The stretches made disjoint, each with the largest height there, tidied at the ends and seams.
+std::vector<CoveredSpan> mergeSpans(const std::vector<CoveredSpan>& spans, double length)
 {
-    std::sort(covers.begin(), covers.end(), [](const Cover& x, const Cover& y) { return x.from < y.from; });
-    double sum = 0.0, end = 0.0;
-    for (const Cover& cover : covers) {
-        sum += std::max(0.0, cover.to - std::max(cover.from, end));
-        end = std::max(end, cover.to);
+    struct Event
+    {
+        double at;
+        bool isBegin;
+        double height;
+    };
+    std::vector<Event> events;
+    for (const CoveredSpan& span : spans) {
+        events.push_back({span.begin < kSeam ? 0.0 : span.begin, true, span.height});
+        events.push_back({span.end > length - kSeam ? length : span.end, false, span.height});
     }
-    return sum;
-}
-
-// The largest height that at least half of the edge is covered up to.
-double coveredHalf(std::vector<Cover> covers)
-{
-    std::stable_sort(covers.begin(), covers.end(), [](const Cover& x, const Cover& y) { return x.height > y.height; });
-    for (size_t n = 1; n <= covers.size(); ++n)
-        if (unionLength({covers.begin(), covers.begin() + long(n)}) >= 0.5 - 1e-9) return covers[n - 1].height;
-    return 0.0;
+    std::sort(events.begin(), events.end(),
+              [](const Event& a, const Event& b) { return a.at != b.at ? a.at < b.at : a.isBegin > b.isBegin; });
+    std::vector<CoveredSpan> merged;
+    std::multiset<double> heights;
+    double at = 0.0;
+    for (const Event& event : events) {
+        if (!heights.empty() && event.at - at >= kSeam) {
+            const double height = *heights.rbegin();
+            if (!merged.empty() && at - merged.back().end < kSeam) {
+                at = merged.back().end;
+                if (merged.back().height == height) {
+                    merged.back().end = event.at;
+                    at = event.at;
+                }
+            }
+            if (event.at > at) merged.push_back({at, event.at, height});
+            at = event.at;
+        } else if (heights.empty()) {
+            at = event.at;
+        }
+        if (event.isBegin)
+            heights.insert(event.height);
+        else
+            heights.erase(heights.find(event.height));
+    }
+    return merged;
 }
 
 template <class Visit> void forEachEdge(const Polygon2& outline, Visit&& visit)
@@ -84,54 +107,37 @@ void findSharedWalls(Layout& layout)
     BoxGrid grid(16.0);
     for (u32 f = 0; f < layout.footprints.size(); ++f) {
         forEachEdge(layout.footprints[f].outline, [&](const glm::dvec2& a, const glm::dvec2& b) {
-            grid.insert({glm::min(a, b), glm::max(a, b)}, u32(walls.size()));
+            grid.insert(boxOf(a, b), u32(walls.size()));
             walls.push_back({a, b, f});
         });
     }
-    for (Footprint& footprint : layout.footprints) footprint.coveredHeight.clear();
+    for (Footprint& footprint : layout.footprints) footprint.covered.clear();
     for (const Wall& wall : walls) {
         Footprint& own = layout.footprints[wall.footprint];
-        const Box2 box{glm::min(wall.a, wall.b), glm::max(wall.a, wall.b)};
-        std::vector<Cover> covers;
-        for (const u32 candidate : grid.touching(box.grown(kWallGap))) {
+        std::vector<CoveredSpan> spans;
+        for (const u32 candidate : grid.touching(boxOf(wall.a, wall.b).grown(kWallGap))) {
             const Wall& other = walls[candidate];
-            Cover cover{};
-            if (other.footprint == wall.footprint || !coverOf(wall, other, cover)) continue;
+            if (other.footprint == wall.footprint) continue;
+            CoveredSpan span = stretchOf(wall, other);
             const Footprint& neighbour = layout.footprints[other.footprint];
-            cover.height = neighbour.base + neighbour.height - own.base;
-            if (cover.height > 0.0) covers.push_back(cover);
+            span.height = neighbour.base + neighbour.height - own.base;
+            if (span.end > span.begin && span.height > 0.0) spans.push_back(span);
         }
-        own.coveredHeight.push_back(coveredHalf(std::move(covers)));
+        own.covered.push_back(mergeSpans(spans, glm::distance(wall.a, wall.b)));
     }
 }
 
-void chooseFronts(Layout& layout)
+double coveredHalf(std::span<const CoveredSpan> spans, double length)
 {
-    const PolygonIndex courts(enclosedCourts(layout.footprints));
-    for (Footprint& footprint : layout.footprints) {
-        Ring2& ring = footprint.outline.outer;
-        // Rank: free on the street, free on a court, partly free, covered; then the exposed wall, then the order given.
-        size_t front = 0;
-        int bestRank = -1;
-        double bestSize = -1.0;
-        for (size_t i = 0; i < ring.size(); ++i) {
-            const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-            const double length = glm::distance(a, b);
-            const double exposed = std::max(0.0, footprint.height - footprint.coveredHeight[i]);
-            int rank = exposed > 0.0 ? 1 : 0;
-            if (footprint.coveredHeight[i] == 0.0) {
-                const glm::dvec2 outward(b.y - a.y, a.x - b.x);
-                rank = courts.contains(0.5 * (a + b) + 0.5 / length * outward) ? 2 : 3;
-            }
-            const double size = rank > 0 ? length * exposed : length;
-            // A hair of preference for what came first keeps the choice stable for equal edges.
-            if (rank > bestRank || (rank == bestRank && size > bestSize * (1.0 + 1e-6)))
-                front = i, bestRank = rank, bestSize = size;
-        }
-        std::rotate(ring.begin(), ring.begin() + long(front), ring.end());
-        const auto covered = footprint.coveredHeight.begin();
-        std::rotate(covered, covered + long(front), covered + long(ring.size()));
+    std::vector<CoveredSpan> byHeight(spans.begin(), spans.end());
+    std::stable_sort(byHeight.begin(), byHeight.end(),
+                     [](const auto& a, const auto& b) { return a.height > b.height; });
+    double covered = 0.0;
+    for (const CoveredSpan& span : byHeight) {
+        covered += span.end - span.begin;
+        if (covered >= (0.5 - 1e-9) * length) return span.height;
     }
+    return 0.0;
 }
 
 } // namespace helio

@@ -61,16 +61,21 @@ void summariseRows(const NodeTree& tree, const LinkTable& links, const SkyScan& 
 {
     constexpr float kInside = 0.01f; // share of rays that meet back sides
     std::vector<u32> open;
-    double area = 0.0, insideArea = 0.0;
+    double area = 0.0, insideArea = 0.0, coveredArea = 0.0;
     for (u32 i = 0; i < tree.patchCount(); ++i) {
         area += tree.patches[i].area;
-        if (scan.back[i] <= kInside)
+        if (tree.patches[i].covered) {
+            ++stats.coveredPatchCount;
+            coveredArea += tree.patches[i].area;
+        } else if (scan.back[i] <= kInside) {
             open.push_back(i);
-        else
+        } else {
             insideArea += tree.patches[i].area;
+        }
     }
-    stats.insidePatchCount = tree.patchCount() - u32(open.size());
+    stats.insidePatchCount = tree.patchCount() - u32(open.size()) - stats.coveredPatchCount;
     if (area > 0.0) stats.insideAreaShare = insideArea / area;
+    if (area > 0.0) stats.coveredAreaShare = coveredArea / area;
     const std::vector<double> rowSums = patchRowSums(tree, links);
     std::vector<double> closure(rowSums);
     for (const u32 i : open) closure[i] += double(scan.sky[i]) + double(scan.below[i]) + double(scan.back[i]);

@@ -60,6 +60,9 @@ struct LightStats
     /// What they see hangs on the order of coincident faces; the sums below leave them out.
     u32 insidePatchCount = 0;
     double insideAreaShare = 0.0; ///< their share of the area of all patches, 0..1
+    /// Patches that a neighbour covers: no links, no sky; left out of the sums below and of the number inside.
+    u32 coveredPatchCount = 0;
+    double coveredAreaShare = 0.0; ///< their share of the area of all patches, 0..1
     MinMeanMax
         closure; ///< per patch: links (own and ancestors') + sky + escape below the horizon + back sides; 1 = closed
     MinMeanMax rowSum;          ///< per patch: links, own and ancestors'

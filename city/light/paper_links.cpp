@@ -43,7 +43,7 @@ public:
     {
         std::vector<u32> roots;
         for (u32 i = 0; i < tree_.nodeCount(); ++i)
-            if (tree_.isPlanarRoot(i)) roots.push_back(i);
+            if (tree_.isPlanarRoot(i) && !tree_.nodes[i].covered) roots.push_back(i);
         // Swept along x: only roots whose boxes come within the cut-off there meet. Boxes bound the centroids too.
         std::sort(roots.begin(), roots.end(),
                   [&](u32 a, u32 b) { return box_[a].low.x != box_[b].low.x ? box_[a].low.x < box_[b].low.x : a < b; });

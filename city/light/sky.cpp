@@ -56,6 +56,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         std::vector<std::pair<u32, u32>>& pairs = pairsOf[begin / kChunk];
         std::vector<u32> seen;
         for (u32 patch = begin; patch < end; ++patch) {
+            if (tree.patches[patch].covered) continue;
             const PlaneFrame frame = planeFrame(tree.nodes[patch].normal);
             const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed, 0x5ca7), patch));
             u32 sky = 0, below = 0, front = 0, back = 0;
@@ -69,7 +70,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                     visibility.trace(visibility.pointOnPatch(patch, x[2], x[3]), frame.normal, direction);
                 if (hit.patch == kNoIndex) {
                     ++(direction.z > 0.0 ? sky : below);
-                } else if (!hit.front) {
+                } else if (!hit.front || tree.patches[hit.patch].covered) {
                     ++back;
                 } else {
                     ++front;

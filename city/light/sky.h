@@ -14,7 +14,7 @@ struct SkyScan
     std::vector<float> sky;    ///< per patch: fraction that leaves above the horizon = sky view factor of a uniform sky
     std::vector<float> below;  ///< per patch: fraction that leaves below the horizon
     std::vector<float> rowSum; ///< per patch: fraction that meets a lit side
-    std::vector<float> back;   ///< per patch: fraction that meets a back side: black
+    std::vector<float> back;   ///< per patch: fraction that meets a back side, or a covered patch: black
     /// Pairs (a < b) of planar roots of which at least one patch's ray met the other, ascending: the candidates for
     /// links.
     std::vector<std::pair<u32, u32>> rootPairs;
@@ -27,9 +27,9 @@ std::vector<u32> planarRoots(const NodeTree& tree);
 /// 1024].
 u32 autoRaysPerPatch(u32 patchCount);
 
-/// Traces `rays` per patch, stratified together over its area and over the hemisphere (Sobol points, shifted by a hash
-/// of the seed and the patch id). `progress` gets the fraction done and may be empty; it is called from one thread at a
-/// time.
+/// Covered patches have no rays: all their fractions are 0 and no pair comes of them. Traces `rays` per patch,
+/// stratified together over its area and over the hemisphere (Sobol points, shifted by a hash of the seed and the patch
+/// id). `progress` gets the fraction done and may be empty; it is called from one thread at a time.
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
                 const std::function<void(double)>& progress);
 

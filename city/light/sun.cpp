@@ -20,7 +20,7 @@ std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, c
         for (u32 patch = begin; patch < end; ++patch) {
             const glm::dvec3 normal = tree.nodes[patch].normal;
             const double cosine = glm::dot(normal, toSun);
-            if (cosine <= 0.0) continue;
+            if (cosine <= 0.0 || tree.patches[patch].covered) continue;
             const std::array<u32, 4> shift = digitalShift(mixSeed(0x5a11, patch));
             u32 lit = 0;
             for (u32 k = 0; k < samples; ++k) {

@@ -41,9 +41,9 @@ Training trainLights(const NodeTree& tree, const Visibility& visibility, std::sp
     lights.emplace_back(sky.begin(), sky.end());
     lights.emplace_back(count, 1.0);
     for (std::vector<double>& light : lights)
-        for (u32 i = 0; i < count; ++i) light[i] *= tree.patches[i].rho.w;
+        for (u32 i = 0; i < count; ++i) light[i] *= tree.patches[i].covered ? 0.0 : tree.patches[i].rho.w;
     lights.emplace_back(count);
-    for (u32 i = 0; i < count; ++i) lights.back()[i] = tree.patches[i].emission.w;
+    for (u32 i = 0; i < count; ++i) lights.back()[i] = tree.patches[i].covered ? 0.0 : tree.patches[i].emission.w;
     std::erase_if(lights, [&](std::vector<double>& light) { return !normalise(tree, light); });
     if (lights.empty()) lights.emplace_back(count, 1.0); // All black: any weights will do.
 

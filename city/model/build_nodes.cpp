@@ -2,48 +2,63 @@
 #include "city/model/build_nodes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 
 #include "city/base/check.h"
+#include "city/base/hash.h"
 #include "city/model/convex_hull.h"
 #include "city/model/guillotine.h"
+#include "city/model/join_polygons.h"
+#include "city/model/overlay_search.h"
 #include "city/model/plane_groups.h"
 
 namespace helio {
 namespace {
 
-constexpr double kMinArea = 1e-8; // m2: less is no surface
-constexpr double kTiling = 1e-5;  // relative area defect of a tiling node
+constexpr double kTiling = 1e-5; // relative area defect of a tiling node
+constexpr u32 kSlackDepth = 4;   // levels above twice the depth of a balanced tree from which on it is built anew
 
-/// A node before it has its final number.
+/// A node before it has its final number; its children lie in the builder's list.
 struct RawNode
 {
     Node node;
-    std::vector<u32> children; // raw indices
     u32 patch = kNoIndex;
     bool sealed = false; // the face of a solid: its plane is not merged with a neighbour's
+    bool dead = false;   // replaced by another
 };
 
 class Builder
 {
 public:
-    Builder(const ShapeTree& shapes, std::span<const AssetSummary> assets) : shapes_(shapes), assets_(assets)
+    Builder(const ShapeTree& shapes, std::span<const AssetSummary> assets, const NodeOptions& options)
+        : shapes_(shapes), assets_(assets)
     {
         HELIO_CHECK(assets.size() == shapes.assets.size(), assets.size(), " asset summaries, ", shapes.assets.size(),
                     " assets");
+        for (u32 i = 0; i < shapes.shapes.size(); ++i) {
+            const u32 parent = shapes.shapes[i].parent;
+            HELIO_CHECK(parent == kNoIndex || parent < i, "shape ", i, " comes before its parent ", parent);
+        }
+        cells_ = makeCells(shapes, options);
     }
 
     NodeTreeBuild build()
     {
-        linkShapes();
+        build_.degenerateCount = cells_.degenerateCount;
+        build_.stripCount = cells_.stripCount;
+        build_.mergedCount = cells_.mergedCount;
+        build_.sliverCount = cells_.sliverCount;
         const size_t count = shapes_.shapes.size();
         itemsOf_.resize(count);
-        patchesOf_.resize(count);
+        makeKeys();
         // Patches first, in the order of derivation: their numbers are the ids.
-        for (u32 i = 0; i < count; ++i) makePatches(i);
+        patchOfPiece_.resize(cells_.pieces.size());
+        for (u32 c = 0; c < cells_.cells.size(); ++c)
+            if (cells_.cells[c].alive) itemsOf_[cells_.cells[c].owner].push_back(makePatch(c));
         for (u32 i = u32(count); i-- > 0;) gather(i);
         number();
         placeInstances();
@@ -54,119 +69,157 @@ public:
     }
 
 private:
-    void linkShapes()
+    /// A shape's key is the hash of its building's id and the child numbers on the way to it.
+    void makeKeys()
     {
-        const size_t count = shapes_.shapes.size();
-        childBegin_.assign(count + 1, 0);
-        for (u32 i = 0; i < count; ++i) {
-            const u32 parent = shapes_.shapes[i].parent;
-            HELIO_CHECK(parent == kNoIndex || parent < i, "shape ", i, " comes before its parent ", parent);
-            if (parent != kNoIndex) ++childBegin_[parent + 1];
+        keys_.resize(shapes_.shapes.size());
+        for (u32 i = 0; i < keys_.size(); ++i) {
+            const Shape& shape = shapes_.shapes[i];
+            if (shape.parent != kNoIndex)
+                keys_[i] = mixSeed(keys_[shape.parent], shape.child);
+            else
+                keys_[i] =
+                    shape.building < shapes_.buildingIds.size() ? hashText(shapes_.buildingIds[shape.building]) : i;
         }
-        std::partial_sum(childBegin_.begin(), childBegin_.end(), childBegin_.begin());
-        childShapes_.resize(childBegin_[count]);
-        std::vector<u32> next(childBegin_.begin(), childBegin_.end() - 1);
-        for (u32 i = 0; i < count; ++i)
-            if (const u32 parent = shapes_.shapes[i].parent; parent != kNoIndex) childShapes_[next[parent]++] = i;
     }
 
-    std::span<const u32> childrenOf(u32 shape) const
-    {
-        return {childShapes_.data() + childBegin_[shape], childBegin_[shape + 1] - childBegin_[shape]};
-    }
-
-    /// One patch for each plane that the leaf's polygons lie in.
-    void makePatches(u32 shapeIndex)
-    {
-        const Shape& shape = shapes_.shapes[shapeIndex];
-        std::vector<u32> polygons;
-        std::vector<PlaneItem> planes;
-        for (u32 p = shape.polygonBegin; p < shape.polygonBegin + shape.polygonCount; ++p) {
-            const Polygon3& polygon = shapes_.polygons[p];
-            if (area(polygon) >= kMinArea) {
-                polygons.push_back(p);
-                planes.push_back({unitNormal(polygon), polygon.outer[0]});
-            } else {
-                ++build_.degenerateCount;
-            }
-        }
-        std::vector<u32>& items = itemsOf_[shapeIndex];
-        for (std::vector<u32>& group : groupByPlane(planes)) {
-            const glm::dvec3 normal = planes[group[0]].normal;
-            for (u32& member : group) member = polygons[member];
-            items.push_back(makePatch(shape, group, normal));
-        }
-        for (const u32 item : items) patchesOf_[shapeIndex].push_back(raw_[item].patch);
-        if (items.size() > 1) items = {makeCluster(shape, items)};
-    }
-
-    u32 makePatch(const Shape& shape, std::span<const u32> polygons, const glm::dvec3& normal)
+    void addRings(const Polygon3& polygon)
     {
         NodeTree& tree = build_.tree;
+        tree.rings.push_back(polygon.outer);
+        tree.ringIsHole.push_back(0);
+        for (const Ring3& hole : polygon.holes) {
+            tree.rings.push_back(hole);
+            tree.ringIsHole.push_back(1);
+        }
+    }
+
+    u32 makePatch(u32 cellIndex)
+    {
+        NodeTree& tree = build_.tree;
+        const PatchCell& cell = cells_.cells[cellIndex];
+        const Shape& first = shapes_.shapes[cells_.pieces[cell.firstPiece].shape];
         Patch patch;
-        patch.building = shape.building;
-        patch.sourceFace = shape.sourceFace;
-        patch.surface = shape.surface;
-        if (shape.surface != kNoIndex) {
-            patch.rho = shapes_.surfaces[shape.surface].rho;
-            patch.emission = shapes_.surfaces[shape.surface].emission;
-        }
-        if (shape.placement == AssetPlacement::Fill) {
-            patch.asset = shape.asset;
-            patch.rho = assets_[shape.asset].rho;
-        }
+        patch.building = first.building;
+        patch.sourceFace = first.sourceFace;
+        patch.surface = first.surface;
+        patch.covered = cell.covered;
+        patch.key = mixSeed(keys_[cells_.pieces[cellIndex].shape], cell.ordinal); // Cell i was made for piece i.
         RawNode raw;
-        raw.node.ringBegin = u32(tree.rings.size());
-        for (const u32 p : polygons) {
-            const Polygon3& polygon = shapes_.polygons[p];
-            const double polygonArea = area(polygon);
-            patch.area += polygonArea;
-            raw.node.centroid += polygonArea * centroid(polygon);
-            tree.rings.push_back(polygon.outer);
-            tree.ringIsHole.push_back(0);
-            for (const Ring3& hole : polygon.holes) {
-                tree.rings.push_back(hole);
-                tree.ringIsHole.push_back(1);
-            }
+        Node& node = raw.node;
+        u32 largest = cell.firstPiece;
+        const size_t firstDrawn = build_.pieces.size();
+        for (u32 p = cell.firstPiece; p != kNoIndex; p = cells_.pieces[p].next) {
+            if (cells_.pieces[p].area > cells_.pieces[largest].area) largest = p;
+            addPiece(p, patch, node);
         }
-        raw.node.ringCount = u32(tree.rings.size()) - raw.node.ringBegin;
-        raw.node.centroid /= patch.area;
-        raw.node.area = patch.area;
-        raw.node.normal = normal;
-        raw.node.building = shape.building;
-        raw.node.name = shape.name;
+        patch.surface = shapes_.shapes[cells_.pieces[largest].shape].surface;
+        // Equal parts keep their reflectance to the last bit.
+        const bool equal = std::all_of(build_.pieces.begin() + std::ptrdiff_t(firstDrawn), build_.pieces.end(),
+                                       [&](const DrawnPiece& d) { return d.rho == build_.pieces[firstDrawn].rho; });
+        patch.rho = equal ? build_.pieces[firstDrawn].rho : patch.rho / patch.area;
+        patch.emission /= patch.area;
+        node.centroid /= patch.area;
+        const DrawnPiece& piece = build_.pieces.back();
+        node.ringBegin = piece.ringBegin;
+        node.ringCount = piece.ringCount;
+        if (cell.firstPiece != cell.lastPiece) joinOutline(cell, node);
+        node.area = patch.area;
+        node.normal = cell.normal;
+        node.building = first.building;
+        node.name = first.name;
+        node.covered = cell.covered;
+        if (cell.covered) {
+            ++build_.coveredPatchCount;
+            build_.coveredArea += patch.area;
+        }
         raw.patch = tree.patchCount();
         tree.patches.push_back(patch);
-        raw_.push_back(std::move(raw));
+        raw_.push_back(raw);
         return u32(raw_.size()) - 1;
     }
 
-    u32 makeParent(const Shape& shape, std::vector<u32> children)
+    /// Draws a piece and adds its share to the patch's sums.
+    void addPiece(u32 p, Patch& patch, Node& node)
+    {
+        NodeTree& tree = build_.tree;
+        const PatchPiece& piece = cells_.pieces[p];
+        const Shape& shape = shapes_.shapes[piece.shape];
+        glm::dvec4 rho(0.0), emission(0.0);
+        if (shape.surface != kNoIndex) {
+            rho = shapes_.surfaces[shape.surface].rho;
+            emission = shapes_.surfaces[shape.surface].emission;
+        }
+        DrawnPiece drawn;
+        if (shape.placement == AssetPlacement::Fill) {
+            drawn.asset = shape.asset;
+            rho = assets_[shape.asset].rho;
+        }
+        drawn.patch = patchOfPiece_[p] = tree.patchCount();
+        drawn.rho = rho;
+        drawn.ringBegin = u32(tree.rings.size());
+        for (u32 r = piece.polygonBegin; r < piece.polygonBegin + piece.polygonCount; ++r) {
+            const Polygon3& polygon = cells_.polygon(shapes_, cells_.polygonRefs[r]);
+            node.centroid += area(polygon) * centroid(polygon);
+            addRings(polygon);
+        }
+        drawn.ringCount = u32(tree.rings.size()) - drawn.ringBegin;
+        patch.area += piece.area;
+        patch.rho += piece.area * rho;
+        patch.emission += piece.area * emission;
+        if (shape.placement == AssetPlacement::Fill) pieceOfShape_.emplace_back(piece.shape, u32(build_.pieces.size()));
+        build_.pieces.push_back(drawn);
+    }
+
+    /// The outline of several pieces: their union.
+    void joinOutline(const PatchCell& cell, Node& node)
+    {
+        std::vector<Polygon3> polygons;
+        for (u32 p = cell.firstPiece; p != kNoIndex; p = cells_.pieces[p].next)
+            for (u32 r = 0; r < cells_.pieces[p].polygonCount; ++r)
+                polygons.push_back(cells_.polygon(shapes_, cells_.polygonRefs[cells_.pieces[p].polygonBegin + r]));
+        node.ringBegin = u32(build_.tree.rings.size());
+        for (const Polygon3& polygon : joinPolygons(polygons, cell.normal)) addRings(polygon);
+        node.ringCount = u32(build_.tree.rings.size()) - node.ringBegin;
+    }
+
+    std::span<const u32> childrenOf(const RawNode& raw) const
+    {
+        return {children_.data() + raw.node.childBegin, raw.node.childCount};
+    }
+
+    u32 makeParent(const Shape& shape, std::span<const u32> children)
     {
         RawNode raw;
         raw.node.building = shape.building;
         raw.node.name = shape.name;
+        raw.node.covered = true;
         for (const u32 child : children) {
-            raw.node.area += raw_[child].node.area;
-            raw.node.centroid += raw_[child].node.area * raw_[child].node.centroid;
-            raw.node.height = std::max(raw.node.height, raw_[child].node.height + 1);
+            const Node& node = raw_[child].node;
+            raw.node.area += node.area;
+            raw.node.centroid += node.area * node.centroid;
+            raw.node.height = std::max(raw.node.height, node.height + 1);
+            raw.node.covered = raw.node.covered && node.covered;
         }
         raw.node.centroid /= raw.node.area;
-        raw.children = std::move(children);
-        raw_.push_back(std::move(raw));
+        raw.node.childBegin = u32(children_.size());
+        raw.node.childCount = u32(children.size());
+        children_.insert(children_.end(), children.begin(), children.end());
+        raw_.push_back(raw);
         return u32(raw_.size()) - 1;
     }
 
-    u32 makeCluster(const Shape& shape, std::vector<u32> children)
+    u32 makeCluster(const Shape& shape, std::span<const u32> children)
     {
-        const u32 index = makeParent(shape, std::move(children));
+        const u32 index = makeParent(shape, children);
         raw_[index].node.kind = NodeKind::Cluster;
         raw_[index].node.coverage = 0.0;
+        raw_[index].node.covered = false;
         return index;
     }
 
     /// A planar node over coplanar children: its outline is their convex hull.
-    u32 makePlanar(const Shape& shape, std::vector<u32> children, const PlaneFrame& frame)
+    u32 makePlanar(const Shape& shape, std::span<const u32> children, const PlaneFrame& frame)
     {
         NodeTree& tree = build_.tree;
         std::vector<glm::dvec2> points;
@@ -176,15 +229,11 @@ private:
                 for (const glm::dvec3& q : tree.rings[raw_[child].node.ringBegin + r])
                     points.emplace_back(glm::dot(q - origin, frame.u), glm::dot(q - origin, frame.v));
         const Ring2 hull = convexHull(points);
-        const u32 index = makeParent(shape, std::move(children));
+        const u32 index = makeParent(shape, children);
         Node& node = raw_[index].node;
         node.normal = frame.normal;
         node.coverage = node.area / signedArea(hull);
-        const double excess = node.coverage - 1.0;
-        node.kind = std::abs(excess) <= kTiling ? NodeKind::Tiling : NodeKind::PlanarPartial;
-        if (excess > kTiling) ++build_.overlapCount; // More area than the hull has: children lie on each other.
-        const double defect = node.kind == NodeKind::Tiling ? std::abs(excess) : std::max(excess, 0.0);
-        build_.areaDefect = std::max(build_.areaDefect, defect);
+        node.kind = std::abs(node.coverage - 1.0) <= kTiling ? NodeKind::Tiling : NodeKind::PlanarPartial;
         node.ringBegin = u32(tree.rings.size());
         node.ringCount = 1;
         Ring3 ring;
@@ -198,9 +247,8 @@ private:
     {
         if (boxes.size() == 1) return boxes[0].item;
         const u32 cut = guillotineCut(boxes);
-        const u32 lower = balance(shape, boxes.first(cut), frame);
-        const u32 upper = balance(shape, boxes.subspan(cut), frame);
-        return makePlanar(shape, {lower, upper}, frame);
+        const u32 pair[2] = {balance(shape, boxes.first(cut), frame), balance(shape, boxes.subspan(cut), frame)};
+        return makePlanar(shape, pair, frame);
     }
 
     /// Binary planar tree over the coplanar items of one shape.
@@ -228,14 +276,23 @@ private:
     {
         const Shape& shape = shapes_.shapes[shapeIndex];
         std::vector<u32>& items = itemsOf_[shapeIndex];
-        for (const u32 child : childrenOf(shapeIndex)) {
-            items.insert(items.end(), itemsOf_[child].begin(), itemsOf_[child].end());
-            itemsOf_[child] = {};
+        // Children hand their items up last one first.
+        const bool own = cells_.pieceRow[shapeIndex] != cells_.pieceRow[shapeIndex + 1];
+        if (!own) std::reverse(items.begin(), items.end());
+        if (items.size() > 1 && (shape.op != ShapeOp::Root || own)) items = mergePlanes(shape, items);
+        if (cells_.isSolid[shapeIndex] != 0 && items.size() > 1) items = {makeCluster(shape, items)};
+        if (shape.op != ShapeOp::Component && shape.parent != kNoIndex) {
+            std::vector<u32>& above = itemsOf_[shape.parent];
+            above.insert(above.end(), items.rbegin(), items.rend());
+            items = {};
+            return;
         }
-        if (items.size() > 1 && shape.op != ShapeOp::Root) items = mergePlanes(shape, items);
-        if (shape.op != ShapeOp::Component && shape.parent != kNoIndex) return;
+        for (u32& item : items) item = flatter(shape, item);
         if (items.size() > 1) items = {makeCluster(shape, items)};
         if (!items.empty()) raw_[items[0]].sealed = true;
+        if (shape.parent == kNoIndex || items.empty()) return;
+        itemsOf_[shape.parent].push_back(items[0]);
+        items = {};
     }
 
     /// Faces of solids and clusters stay as they are, the others become one item for each plane.
@@ -244,7 +301,8 @@ private:
         std::vector<PlaneItem> planes;
         for (const u32 item : items) {
             const RawNode& raw = raw_[item];
-            planes.push_back({raw.node.normal, raw.node.centroid, raw.sealed || raw.node.kind == NodeKind::Cluster});
+            planes.push_back({raw.node.normal, raw.node.centroid, raw.sealed || raw.node.kind == NodeKind::Cluster,
+                              raw.node.covered ? 1u : 0u});
         }
         std::vector<u32> merged;
         for (std::vector<u32>& group : groupByPlane(planes)) {
@@ -254,19 +312,37 @@ private:
         return merged;
     }
 
+    /// A planar node that recursive rules made deep, as one balanced tree over the same leaves; else the node itself.
+    u32 flatter(const Shape& shape, u32 item)
+    {
+        if (raw_[item].sealed || raw_[item].node.kind == NodeKind::Cluster) return item;
+        std::vector<u32> leaves, inner, stack{item};
+        while (!stack.empty()) {
+            const u32 at = stack.back();
+            stack.pop_back();
+            const std::span<const u32> children = childrenOf(raw_[at]);
+            (children.empty() ? leaves : inner).push_back(at);
+            stack.insert(stack.end(), children.rbegin(), children.rend());
+        }
+        if (raw_[item].node.height <= 2 * u32(std::bit_width(leaves.size())) + kSlackDepth) return item;
+        for (const u32 node : inner) raw_[node].dead = true;
+        return makePlane(shape, leaves);
+    }
+
     /// Leaves get their patch's number, inner nodes follow by rising height.
     void number()
     {
         NodeTree& tree = build_.tree;
-        std::vector<u32> order(raw_.size());
-        std::iota(order.begin(), order.end(), 0u);
+        std::vector<u32> order;
+        for (u32 i = 0; i < raw_.size(); ++i)
+            if (!raw_[i].dead) order.push_back(i);
         std::stable_sort(order.begin(), order.end(), [&](u32 a, u32 b) {
             const u32 ha = raw_[a].node.height, hb = raw_[b].node.height;
             return ha != hb ? ha < hb : ha == 0 && raw_[a].patch < raw_[b].patch;
         });
-        std::vector<u32> numberOf(raw_.size());
+        std::vector<u32> numberOf(raw_.size(), kNoIndex);
         for (u32 i = 0; i < order.size(); ++i) numberOf[order[i]] = i;
-        tree.nodes.resize(raw_.size());
+        tree.nodes.resize(order.size());
         for (u32 i = 0; i < order.size(); ++i) {
             const RawNode& raw = raw_[order[i]];
             Node& node = tree.nodes[i];
@@ -274,85 +350,72 @@ private:
             node = raw.node;
             node.parent = parent;
             node.childBegin = u32(tree.children.size());
-            node.childCount = u32(raw.children.size());
-            for (const u32 child : raw.children) {
+            for (const u32 child : childrenOf(raw)) {
                 tree.children.push_back(numberOf[child]);
                 tree.nodes[numberOf[child]].parent = i;
             }
+            audit(node);
         }
+    }
+
+    void audit(const Node& node)
+    {
+        if (node.kind == NodeKind::Cluster || node.childCount == 0) return;
+        const double excess = node.coverage - 1.0;
+        if (excess > kTiling) ++build_.overlapCount; // More area than the hull has: children lie on each other.
+        const double defect = node.kind == NodeKind::Tiling ? std::abs(excess) : std::max(excess, 0.0);
+        build_.areaDefect = std::max(build_.areaDefect, defect);
     }
 
     void placeInstances()
     {
+        build_.trimPlanes = shapes_.trimPlanes;
+        const OverlaySearch search(shapes_, cells_, build_.tree, patchOfPiece_);
+        std::sort(pieceOfShape_.begin(), pieceOfShape_.end());
         for (u32 i = 0; i < shapes_.shapes.size(); ++i) {
             const Shape& shape = shapes_.shapes[i];
             if (shape.placement == AssetPlacement::None) continue;
-            u32 patch = kNoIndex;
-            if (shape.placement == AssetPlacement::Overlay)
-                patch = patchBehind(i);
-            else if (!patchesOf_[i].empty())
-                patch = patchesOf_[i][0];
-            if (patch == kNoIndex)
+            AssetInstance instance{shape.asset, kNoIndex, shape.worldFromAsset, kNoIndex, 0, 0};
+            if (shape.placement == AssetPlacement::Overlay) {
+                const glm::dvec3 centre = shape.worldFromAsset * glm::dvec4(assets_[shape.asset].boxCentre, 1.0);
+                instance.patch = search.patchBehind(i, centre);
+            } else {
+                const auto own = std::lower_bound(pieceOfShape_.begin(), pieceOfShape_.end(), std::pair(i, 0u));
+                if (own != pieceOfShape_.end() && own->first == i) {
+                    instance.piece = own->second;
+                    instance.patch = build_.pieces[own->second].patch;
+                }
+            }
+            HELIO_CHECK(shape.trimCount == 0 || size_t(shape.trimBegin) + shape.trimCount <= shapes_.trimPlanes.size(),
+                        "shape ", i, ": trim planes ", shape.trimBegin, " + ", shape.trimCount);
+            instance.trimBegin = shape.trimBegin;
+            instance.trimCount = shape.trimCount;
+            if (instance.patch == kNoIndex)
                 ++build_.orphanOverlayCount;
             else
-                build_.instances.push_back({shape.asset, patch, shape.worldFromAsset});
+                build_.instances.push_back(instance);
         }
         std::stable_sort(build_.instances.begin(), build_.instances.end(),
                          [](const AssetInstance& a, const AssetInstance& b) { return a.asset < b.asset; });
     }
 
-    /// The patch whose light an overlay takes: the one behind its centre, in the smallest subtree around it that has
-    /// one.
-    u32 patchBehind(u32 shapeIndex) const
-    {
-        const Shape& shape = shapes_.shapes[shapeIndex];
-        const glm::dvec3 centre = shape.worldFromAsset * glm::dvec4(assets_[shape.asset].boxCentre, 1.0);
-        u32 best = kNoIndex;
-        double bestScore = 1e300;
-        for (u32 ancestor = shape.parent; ancestor != kNoIndex && bestScore > 0.5;
-             ancestor = shapes_.shapes[ancestor].parent)
-            searchBehind(ancestor, centre, best, bestScore);
-        return best;
-    }
-
-    void searchBehind(u32 shapeIndex, const glm::dvec3& centre, u32& best, double& bestScore) const
-    {
-        for (const u32 patch : patchesOf_[shapeIndex]) {
-            const Node& node = build_.tree.nodes[patch];
-            const double height = glm::dot(centre - node.centroid, node.normal);
-            // In-plane distance from the patch's bounding rectangle counts most, then the distance along the normal.
-            const PlaneFrame frame = planeFrame(node.normal);
-            glm::dvec2 lower(1e300), upper(-1e300);
-            for (const Ring3& ring : build_.tree.outlineOf(patch))
-                for (const glm::dvec3& q : ring) {
-                    const glm::dvec2 p(glm::dot(q - centre, frame.u), glm::dot(q - centre, frame.v));
-                    lower = glm::min(lower, p);
-                    upper = glm::max(upper, p);
-                }
-            const glm::dvec2 outside = glm::max(glm::max(lower, -upper), glm::dvec2(0.0));
-            const double score = glm::length(outside) + (height < -0.01 ? 100.0 - height : 0.1 * height);
-            if (score < bestScore) {
-                bestScore = score;
-                best = patch;
-            }
-        }
-        for (const u32 child : childrenOf(shapeIndex)) searchBehind(child, centre, best, bestScore);
-    }
-
     const ShapeTree& shapes_;
     std::span<const AssetSummary> assets_;
+    PatchCells cells_;
     NodeTreeBuild build_;
+    std::vector<u64> keys_; // per shape
     std::vector<RawNode> raw_;
-    std::vector<u32> childBegin_, childShapes_;
-    std::vector<std::vector<u32>> itemsOf_;   // raw nodes that a shape hands to its parent
-    std::vector<std::vector<u32>> patchesOf_; // patches of a leaf shape
+    std::vector<u32> children_;                     // of raw nodes
+    std::vector<std::vector<u32>> itemsOf_;         // raw nodes that a shape hands to its parent
+    std::vector<u32> patchOfPiece_;                 // of cells_
+    std::vector<std::pair<u32, u32>> pieceOfShape_; // drawn piece of each shape that an asset fills
 };
 
 } // namespace
 
-NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets)
+NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets, const NodeOptions& options)
 {
-    return Builder(shapes, assets).build();
+    return Builder(shapes, assets, options).build();
 }
 
 } // namespace helio

@@ -2,6 +2,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -50,9 +51,6 @@ struct Footprint
     /// Per edge of the outer ring: it faces a street. Empty: no streets are known.
     std::vector<bool> onStreet;
     std::vector<GivenFace> faces; ///< surfaces that the input gives; empty: the outline is all there is
-    /// Per edge of the outer ring, then of each hole: height up to which a neighbour's wall covers at least half of it,
-    /// m; 0 = free.
-    std::vector<double> coveredHeight;
 };
 
 /// A coplanar piece of ground: street, pavement, court, square. Lies at its own z, faces up.
@@ -73,6 +71,7 @@ struct Layout
     std::vector<std::string> notes;    ///< one line per repaired or skipped feature, with its id
     std::map<std::string, u32> counts; ///< features per kind of defect and of repair, by the name of the statistics
     std::vector<Ring2> streets;        ///< centre-lines, m, relative to origin (open lines)
+    std::optional<double> latitudeDeg, longitudeDeg; ///< of the origin, where the input tells; WGS 84
 };
 
 } // namespace helio

@@ -27,6 +27,7 @@ struct Node
     NodeKind kind = NodeKind::Tiling;
     u32 building = kNoIndex;
     u32 name = 0;             ///< into NodeTree::names
+    bool covered = false;     ///< planar, and all its patches are covered: no link and no sky ends there
     double area = 0.0;        ///< m2: a patch's own, else the sum over the children
     double coverage = 1.0;    ///< area / outline area
     glm::dvec3 centroid{0.0}; ///< area weighted
@@ -35,16 +36,20 @@ struct Node
         ringCount = 0; ///< outline, into NodeTree::rings: a leaf's own rings, an inner planar node's convex hull
 };
 
-/// A leaf: coplanar polygons with one normal, one reflectance and one id.
+/// A leaf: coplanar polygons with one normal, one reflectance and one id. It may stand for several pieces of a facade
+/// (NodeTreeBuild::pieces): reflectance and emission are then their means, weighted by area.
 struct Patch
 {
     u32 building = kNoIndex;
     u32 sourceFace = kNoIndex; ///< face of the OBJ it was made from
-    u32 surface = kNoIndex;    ///< into NodeTree::surfaceNames
-    u32 asset = kNoIndex;      ///< asset that is drawn in its place; kNoIndex: its polygons are drawn
-    double area = 0.0;         ///< m2
-    glm::dvec4 rho{0.0};       ///< reflectance
-    glm::dvec4 emission{0.0};  ///< W/m2
+    u32 surface = kNoIndex;    ///< into NodeTree::surfaceNames: that of its largest part
+    /// Stable name: hash of building id, path of child numbers of the first piece's shape, and part of that shape. Two
+    /// derivations that differ elsewhere give it the same one.
+    u64 key = 0;
+    double area = 0.0;        ///< m2
+    glm::dvec4 rho{0.0};      ///< reflectance
+    glm::dvec4 emission{0.0}; ///< W/m2
+    bool covered = false;     ///< a neighbour stands against it: it is drawn and blocks light, but exchanges none
 };
 
 /// The hierarchy that exchanges light. Everything is relative to the tile's origin; metres, z up.

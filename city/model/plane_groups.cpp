@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <tuple>
 
 namespace helio {
@@ -28,6 +29,15 @@ Cell cellOf(const glm::dvec3& normal)
 {
     return {int(std::floor(normal.x / kNormalCell)), int(std::floor(normal.y / kNormalCell)),
             int(std::floor(normal.z / kNormalCell))};
+}
+
+/// True if an item that is not alone lies in the plane of another.
+bool liesIn(const PlaneItem& item, const PlaneItem& plane)
+{
+    if (&item == &plane) return true;
+    return !item.alone && !plane.alone && item.kind == plane.kind &&
+           glm::dot(plane.normal, item.normal) > 1.0 - kSameNormal &&
+           std::abs(glm::dot(plane.normal, item.point - plane.point)) < kSamePlane;
 }
 
 /// The items that still wait for a group, sorted for a quick look around a plane.
@@ -78,9 +88,7 @@ private:
         for (auto entry = begin; entry != entries_.end() && entry->cell == cell; ++entry) {
             if (entry->offset > offset + reach_) break;
             const PlaneItem& other = items_[entry->item];
-            if (taken_[entry->item] != 0 || glm::dot(plane.normal, other.normal) <= 1.0 - kSameNormal ||
-                std::abs(glm::dot(plane.normal, other.point - plane.point)) >= kSamePlane)
-                continue;
+            if (taken_[entry->item] != 0 || !liesIn(other, plane)) continue;
             taken_[entry->item] = 1;
             group.push_back(entry->item);
         }
@@ -98,6 +106,13 @@ private:
 std::vector<std::vector<u32>> groupByPlane(std::span<const PlaneItem> items)
 {
     std::vector<std::vector<u32>> groups;
+    // Nearly all sets lie in one plane: no index for those.
+    if (std::all_of(items.begin(), items.end(), [&](const PlaneItem& item) { return liesIn(item, items[0]); })) {
+        if (items.empty()) return groups;
+        groups.emplace_back(items.size());
+        std::iota(groups[0].begin(), groups[0].end(), 0u);
+        return groups;
+    }
     PlaneIndex index(items);
     for (u32 i = 0; i < items.size(); ++i) {
         if (items[i].alone)

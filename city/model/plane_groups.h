@@ -14,6 +14,7 @@ struct PlaneItem
     glm::dvec3 normal{0.0}; ///< unit
     glm::dvec3 point{0.0};  ///< in the plane, m
     bool alone = false;     ///< is a group of its own, whatever lies in its plane
+    u32 kind = 0;           ///< things of different kinds never share a group
 };
 
 /// Groups of items that lie in one plane: normals within 0.26 degrees (1 - cos < 1e-5) and less than 2 mm apart. The

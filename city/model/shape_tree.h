@@ -63,6 +63,7 @@ struct Shape
     u32 asset = kNoIndex;      ///< into ShapeTree::assets
     AssetPlacement placement = AssetPlacement::None;
     glm::dmat4x3 worldFromAsset{1.0}; ///< asset units to metres, z up; columns x, y, z axes and origin
+    u32 trimBegin = 0, trimCount = 0; ///< of an asset, into ShapeTree::trimPlanes: it shows where all of them keep it
 };
 
 /// What the grammar (or a scene file) hands to the light: the whole derivation tree, never thrown away.
@@ -75,6 +76,11 @@ struct ShapeTree
     std::vector<std::string> buildingIds; ///< feature id of each building
     std::vector<Shape> shapes;
     std::vector<Polygon3> polygons;
+    std::vector<glm::dvec4> trimPlanes; ///< (n, d), world frame: keep the side n.p + d >= 0
 };
+
+/// Stable key of a shape within its building: the child numbers on the path from the root, "0/3/1"; empty for a root.
+/// Editing a rule changes the keys below it alone. Programmer error: no such shape.
+std::string treeKey(const ShapeTree& tree, u32 shape);
 
 } // namespace helio

@@ -9,6 +9,7 @@
 
 #include "city/model/triangulate.h"
 #include "city/pack/reveal.h"
+#include "city/pack/trim_mesh.h"
 #include "city/pack/vertex_pack.h"
 
 namespace helio {
@@ -45,30 +46,37 @@ public:
     Status checkSize(const ContentLimits& limits) const
     {
         size_t corners = 0, vertices = 0, indices = 0;
-        const auto cornersOf = [&](u32 node) {
+        const auto cornersOf = [&](u32 ringBegin, u32 ringCount) {
             size_t sum = 0;
-            const Node& n = tree_.nodes[node];
-            for (u32 r = n.ringBegin; r < n.ringBegin + n.ringCount; ++r) sum += tree_.rings[r].size();
+            for (u32 r = ringBegin; r < ringBegin + ringCount; ++r) sum += tree_.rings[r].size();
             return sum;
         };
-        for (u32 node = 0; node < tree_.nodeCount(); ++node) {
-            const size_t own = cornersOf(node);
-            corners += own;
-            if (node >= tree_.patchCount() || tree_.patches[node].asset != kNoIndex) continue;
+        for (const Node& node : tree_.nodes) corners += cornersOf(node.ringBegin, node.ringCount);
+        for (const DrawnPiece& piece : build_.pieces) {
+            if (piece.asset != kNoIndex) continue;
+            const size_t own = cornersOf(piece.ringBegin, piece.ringCount);
             vertices += own;
             // n + 2h - 2 triangles fill a polygon of n corners in all and h holes.
-            indices += 3 * (own + 2 * tree_.nodes[node].ringCount);
+            indices += 3 * (own + 2 * piece.ringCount);
         }
-        for (size_t i = 0; i < build_.instances.size(); ++i) {
-            if (revealDepth(build_.instances[i]) > 0.0) {
-                const size_t edges = cornersOf(build_.instances[i].patch);
+        u32 instanced = kNoIndex;
+        for (const AssetInstance& instance : build_.instances) {
+            if (revealDepth(instance) > 0.0) {
+                const DrawnPiece& piece = build_.pieces[instance.piece];
+                const size_t edges = cornersOf(piece.ringBegin, piece.ringCount);
                 vertices += 5 * edges;
                 indices += 9 * edges;
             }
-            const u32 asset = build_.instances[i].asset;
-            if (i > 0 && build_.instances[i - 1].asset == asset) continue;
-            vertices += assets_[asset].positions.size();
-            indices += assets_[asset].indices.size();
+            const AssetMesh& mesh = assets_[instance.asset];
+            if (instance.trimCount > 0) {
+                // A plane turns a triangle into a polygon of one corner more.
+                vertices += (3 + instance.trimCount) * (mesh.indices.size() / 3);
+                indices += 3 * (1 + instance.trimCount) * (mesh.indices.size() / 3);
+            } else if (instance.asset != instanced) {
+                instanced = instance.asset;
+                vertices += mesh.positions.size();
+                indices += mesh.indices.size();
+            }
         }
         const auto tooMany = [](const char* what, size_t count, size_t most) {
             return Error{concat("the city has too many ", what, " for one tile: ", count, " of at most ", most,
@@ -159,10 +167,10 @@ private:
         c_.index.boundsMax = glm::max(c_.index.boundsMax, point);
     }
 
-    void addPolygon(u32 patch, const Polygon3& polygon, const glm::dvec3& facing)
+    void addPolygon(const DrawnPiece& piece, const Polygon3& polygon, const glm::dvec3& facing)
     {
-        const u32 base = u32(c_.vertices.size());
-        const u32 normal = packNormal(facing), albedo = packAlbedo(glm::dvec3(tree_.patches[patch].rho));
+        const u32 base = u32(c_.vertices.size()), patch = piece.patch;
+        const u32 normal = packNormal(facing), albedo = packAlbedo(glm::dvec3(piece.rho));
         const auto addRing = [&](const Ring3& ring) {
             for (const glm::dvec3& q : ring) {
                 c_.vertices.push_back({q, patch, normal, albedo});
@@ -179,16 +187,17 @@ private:
     {
         c_.index.boundsMin = glm::vec3(std::numeric_limits<float>::max());
         c_.index.boundsMax = -c_.index.boundsMin;
-        for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
-            if (tree_.patches[patch].asset != kNoIndex) continue;
-            const u32 first = tree_.nodes[patch].ringBegin, end = first + tree_.nodes[patch].ringCount;
-            for (u32 r = first; r < end;) { // An outer ring is followed by its holes.
+        for (const DrawnPiece& piece : build_.pieces) {
+            if (piece.asset != kNoIndex) continue;
+            const u32 end = piece.ringBegin + piece.ringCount;
+            for (u32 r = piece.ringBegin; r < end;) { // An outer ring is followed by its holes.
                 Polygon3 polygon{tree_.rings[r++], {}};
                 while (r < end && tree_.ringIsHole[r] != 0) polygon.holes.push_back(tree_.rings[r++]);
-                addPolygon(patch, polygon, tree_.nodes[patch].normal);
+                addPolygon(piece, polygon, tree_.nodes[piece.patch].normal);
             }
         }
         addReveals();
+        addTrimmedAssets();
         c_.instances.push_back({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, 0, 0, 0});
         if (!c_.indices.empty()) c_.draws.push_back({u32(c_.indices.size()), 1, 0, 0, 0});
     }
@@ -197,11 +206,12 @@ private:
     double revealDepth(const AssetInstance& instance) const
     {
         constexpr double kShallow = 1e-3, kBehind = 0.002; // m: the recess ends behind the asset's own back
-        if (tree_.patches[instance.patch].asset != instance.asset) return 0.0;
-        const Node& node = tree_.nodes[instance.patch];
+        if (instance.piece == kNoIndex) return 0.0;
+        const glm::dvec3 &onPlane = tree_.rings[build_.pieces[instance.piece].ringBegin][0],
+                         &normal = tree_.nodes[instance.patch].normal;
         double depth = 0.0;
         for (const glm::dvec3& corner : boxCorners(instance))
-            depth = std::max(depth, glm::dot(tree_.rings[node.ringBegin][0] - corner, node.normal));
+            depth = std::max(depth, glm::dot(onPlane - corner, normal));
         return depth > kShallow ? depth + kBehind : 0.0;
     }
 
@@ -211,9 +221,26 @@ private:
         for (const AssetInstance& instance : build_.instances) {
             const double depth = revealDepth(instance);
             if (depth == 0.0) continue;
-            const Node& node = tree_.nodes[instance.patch];
-            for (const Polygon3& face : revealOf(tree_.rings[node.ringBegin], node.normal, depth))
-                addPolygon(instance.patch, face, unitNormal(face));
+            const DrawnPiece& piece = build_.pieces[instance.piece];
+            for (const Polygon3& face : revealOf(tree_.rings[piece.ringBegin], tree_.nodes[piece.patch].normal, depth))
+                addPolygon(piece, face, unitNormal(face));
+        }
+    }
+
+    /// Cut assets have a shape of their own each, so they are part of the static mesh.
+    void addTrimmedAssets()
+    {
+        for (const AssetInstance& instance : build_.instances) {
+            if (instance.trimCount == 0) continue;
+            const TrimmedMesh mesh =
+                trimMesh(assets_[instance.asset], instance.worldFromAsset,
+                         std::span(build_.trimPlanes).subspan(instance.trimBegin, instance.trimCount));
+            const u32 base = u32(c_.vertices.size());
+            for (const TrimmedVertex& v : mesh.vertices) {
+                c_.vertices.push_back({v.position, instance.patch, packNormal(v.normal), packAlbedo(v.albedo)});
+                include(c_.vertices.back().position);
+            }
+            for (const u32 index : mesh.indices) c_.indices.push_back(base + index);
         }
     }
 
@@ -236,7 +263,8 @@ private:
             const u32 asset = build_.instances[i].asset;
             const u32 firstInstance = u32(c_.instances.size());
             for (; i < build_.instances.size() && build_.instances[i].asset == asset; ++i)
-                addInstance(build_.instances[i]);
+                if (build_.instances[i].trimCount == 0) addInstance(build_.instances[i]);
+            if (c_.instances.size() == firstInstance) continue;
             addMesh(assets_[asset], firstInstance, u32(c_.instances.size()) - firstInstance);
         }
     }

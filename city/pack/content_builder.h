@@ -18,9 +18,10 @@ struct ContentLimits
 };
 
 /// Puts a node tree, its links and the meshes of its assets into the form of the pack. `assets` has one entry an asset
-/// of the derivation, in its order. Draw 0 is the static mesh (instance 0): the polygons of all patches that no asset
-/// fills, with the patch's reflectance as albedo; then comes one draw for each asset that has instances. Of `index`
-/// only the bounds are set. Error: the city has more geometry than one tile can hold.
+/// of the derivation, in its order. Draw 0 is the static mesh (instance 0): the pieces of all patches that no asset
+/// fills, each with its own reflectance as albedo, recesses, and assets that are trimmed; then comes one draw for each
+/// asset that has whole instances. Of `index` only the bounds are set. Error: the city has more geometry than one tile
+/// can hold.
 Result<PackContent> buildContent(const NodeTreeBuild& build, std::span<const AssetMesh> assets, LightBake light,
                                  const ContentLimits& limits = {});
 

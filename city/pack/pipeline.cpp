@@ -9,21 +9,21 @@
 
 #include "city/base/file.h"
 #include "city/base/hash.h"
-#include "city/grammar/derive.h"
 #include "city/layout/builtin_city.h"
-#include "city/layout/geojson.h"
 #include "city/layout/ground.h"
 #include "city/layout/surfaces.h"
-#include "city/model/build_nodes.h"
 #include "city/pack/asset_library.h"
 #include "city/pack/content_builder.h"
-#include "city/pack/embedded_files.h"
+#include "city/pack/rule_source.h"
 
 namespace helio {
 namespace {
 
-/// The rule file that is shipped, as embedded.
-constexpr std::string_view kShippedRules = "midrise.cga";
+// Shipped rule files that hold without another choice.
+constexpr const char* kBuiltinRules = "city.cga";
+constexpr const char* kFootprintRules = "midrise.cga";
+// Prague, where no input tells a place.
+constexpr double kLatitudeDeg = 50.1, kLongitudeDeg = 14.4;
 
 /// Reports steps and takes their times.
 class StepClock
@@ -37,6 +37,10 @@ public:
         step_ = step;
         start_ = std::chrono::steady_clock::now();
         if (options_.light.progress) options_.light.progress(step, 0.0);
+    }
+    void show(double done)
+    {
+        if (options_.light.progress && step_ != nullptr) options_.light.progress(step_, done);
     }
     void end()
     {
@@ -76,7 +80,8 @@ public:
         buildTree();
         if (build_.tree.patches.empty())
             return Error{concat(sourceName(), ": nothing to light: no surface has an area")};
-        if (Status status = lightTree(); !status) return status.error();
+        if (!options_.treeOnly)
+            if (Status status = lightTree(); !status) return status.error();
         describe();
         clock_.end();
         return std::move(out_);
@@ -124,62 +129,57 @@ private:
         if (!layout) return layout.error();
         if (layout->footprints.empty()) return Error{concat(sourceName(), ": no footprint to build on")};
         clock_.begin("rules");
-        Result<RuleSet> rules = readRules();
-        if (!rules) return rules.error();
-        const std::vector<std::string> known = rules->attributeNames();
-        for (const auto& [name, value] : options_.attributes)
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                return Error{concat(out_.content.index.rules, ": there is no attribute '", name, "' to set")};
+        const char* shipped = options_.input.empty() ? kBuiltinRules : kFootprintRules;
+        Result<RuleSource> source = readRules(options_.rules.empty() ? shipped : options_.rules, options_.style);
+        if (!source) return source.error();
+        out_.content.index.rules = source->name;
+        out_.content.index.rulesHash = source->hash;
+        // The built-in city names start rules of its own rule file; one without them starts where it says itself.
+        const std::vector<std::string> known = source->rules.ruleNames();
+        for (Footprint& footprint : layout->footprints)
+            if (std::find(known.begin(), known.end(), footprint.rule) == known.end()) footprint.rule.clear();
         clock_.begin("ground");
         addGround(*layout);
         clock_.begin("derivation");
-        DeriveOptions derivation;
-        derivation.seed = options_.light.seed;
-        derivation.jobs = options_.light.jobs;
-        derivation.attributes = options_.attributes;
-        derivation.assetBox = [&](const std::string& name) -> Result<AssetBox> {
-            Result<const AssetMesh*> mesh = library_.find(name);
-            if (!mesh) return mesh.error();
-            return AssetBox{(*mesh)->boxMin, (*mesh)->boxMax};
-        };
-        Result<Derivation> derived = derive(*rules, layout->footprints, derivation);
+        Result<Derivation> derived = derive(source->rules, layout->footprints, deriveOptions());
         if (!derived) return derived.error();
         shapes_ = std::move(derived->shapes);
         appendGround(shapes_, *layout);
+        out_.stats.derivation = derived->counts;
+        out_.stats.import = std::move(layout->counts);
         out_.stats.reports = std::move(derived->reports);
         out_.stats.notes = std::move(layout->notes);
         out_.stats.notes.insert(out_.stats.notes.end(), derived->warnings.begin(), derived->warnings.end());
         out_.content.index.crs = layout->crs;
         out_.content.index.origin = layout->origin;
+        latitudeDeg_ = layout->latitudeDeg.value_or(latitudeDeg_);
+        longitudeDeg_ = layout->longitudeDeg.value_or(longitudeDeg_);
         return Nothing{};
+    }
+
+    DeriveOptions deriveOptions()
+    {
+        DeriveOptions derivation;
+        derivation.seed = options_.light.seed;
+        derivation.jobs = options_.light.jobs;
+        derivation.attributes = options_.attributes;
+        derivation.assetBox = [this](const std::string& name) -> Result<AssetBox> {
+            Result<const AssetMesh*> mesh = library_.find(name);
+            if (!mesh) return mesh.error();
+            return AssetBox{(*mesh)->boxMin, (*mesh)->boxMax};
+        };
+        derivation.progress = [this](u32 done, u32 total) { clock_.show(double(done) / double(std::max(total, 1u))); };
+        derivation.interrupted = options_.interrupted;
+        return derivation;
     }
 
     Result<Layout> importLayout()
     {
         if (options_.input.empty()) return builtinCity(options_.light.seed);
         if (Status status = hashInput(options_.input); !status) return status.error();
-        ImportOptions import;
-        import.defaultHeight = options_.defaultHeight;
-        return importGeoJson(options_.input, import);
-    }
-
-    Result<RuleSet> readRules()
-    {
-        std::string text, name(kShippedRules);
-        if (options_.rules.empty()) {
-            for (const EmbeddedFile& file : embeddedFiles())
-                if (file.name == kShippedRules)
-                    text.assign(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
-            HELIO_CHECK(!text.empty(), kShippedRules);
-        } else {
-            Result<std::string> read = readTextFile(options_.rules);
-            if (!read) return read.error();
-            text = std::move(*read);
-            name = options_.rules.string();
-        }
-        out_.content.index.rules = std::filesystem::path(name).filename().string();
-        out_.content.index.rulesHash = hashText(text);
-        return parseRules(text, name);
+        if (!options_.import.streets.empty())
+            if (Status status = hashInput(options_.import.streets); !status) return status.error();
+        return importCity(options_.input, options_.import);
     }
 
     Status loadAssets()
@@ -198,7 +198,7 @@ private:
     void buildTree()
     {
         clock_.begin("nodes");
-        build_ = buildNodes(shapes_, summaries_);
+        build_ = buildNodes(shapes_, summaries_, options_.nodes);
         shapes_ = {};
     }
 
@@ -221,8 +221,8 @@ private:
     void describe()
     {
         PackIndex& index = out_.content.index;
-        index.latitudeDeg = options_.latitudeDeg;
-        index.longitudeDeg = options_.longitudeDeg;
+        index.latitudeDeg = options_.latitudeDeg.value_or(latitudeDeg_);
+        index.longitudeDeg = options_.longitudeDeg.value_or(longitudeDeg_);
         index.northDeg = options_.northDeg;
         index.source = sourceName();
         index.method = methodName(options_.light.method);
@@ -231,7 +231,10 @@ private:
                                            {"rays_per_patch", options_.light.raysPerPatch},
                                            {"rays_per_link", options_.light.raysPerLink},
                                            {"cutoff_m", options_.light.cutoff},
-                                           {"default_height_m", options_.defaultHeight}};
+                                           {"default_height_m", options_.import.defaultHeight},
+                                           {"patch", options_.nodes.patch == PatchMode::Bay ? "bay" : "piece"}};
+        if (!options_.style.empty()) settings["style"] = options_.style;
+        if (options_.import.lod2) settings["surfaces"] = "lod2";
         for (const auto& [name, value] : options_.attributes)
             std::visit([&, key = name](const auto& plain) { settings["attributes"][key] = plain; }, value);
         index.options = settings.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -246,6 +249,12 @@ private:
         stats.degeneratePolygons = build_.degenerateCount;
         stats.orphanOverlays = build_.orphanOverlayCount;
         stats.areaDefect = build_.areaDefect;
+        stats.treeOnly = options_.treeOnly;
+        stats.coveredPatches = build_.coveredPatchCount;
+        stats.coveredArea = build_.coveredArea;
+        stats.mergedLeaves = build_.mergedCount;
+        stats.slivers = build_.sliverCount;
+        stats.strips = build_.stripCount;
         stats.overlappingNodes = build_.overlapCount;
         if (build_.overlapCount > 0)
             stats.notes.push_back(concat("nodes: in ", build_.overlapCount,
@@ -254,6 +263,7 @@ private:
     }
 
     const BakeOptions& options_;
+    double latitudeDeg_ = kLatitudeDeg, longitudeDeg_ = kLongitudeDeg;
     BakeResult out_;
     StepClock clock_;
     AssetLibrary library_;

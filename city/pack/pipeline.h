@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 
+#include "city/grammar/derive.h"
+#include "city/layout/import.h"
 #include "city/light/bake_light.h"
-#include "city/model/footprint.h"
+#include "city/model/build_nodes.h"
 #include "city/pack/content.h"
 
 namespace helio {
@@ -13,13 +16,20 @@ namespace helio {
 /// What to bake, and how.
 struct BakeOptions
 {
-    std::filesystem::path input;    ///< GeoJSON footprints, or OBJ polygons with `surfaces`; empty: the built-in city
+    /// GeoJSON or CityJSON footprints, or OBJ polygons with `surfaces`; empty: the built-in city
+    std::filesystem::path input;
     std::filesystem::path surfaces; ///< CSV of an OBJ scene
-    std::filesystem::path
-        rules; ///< rule file; empty: the shipped one. Assets: its folder's assets/, ../assets/, the shipped ones
-    double latitudeDeg = 50.1, longitudeDeg = 14.4; ///< of the tile's origin, for suns by date; degrees
-    double northDeg = 0.0;                          ///< clockwise from true north to +y, degrees
-    double defaultHeight = 12.0;                    ///< m, of footprints without any hint of their height
+    ImportOptions import;           ///< of footprints
+    /// Rule file, or the name of a shipped one; empty: city.cga for the built-in city, else midrise.cga. Assets: its
+    /// folder's assets/, ../assets/, the shipped ones
+    std::filesystem::path rules;
+    std::string style; ///< of the rule file; empty: Default
+    NodeOptions nodes; ///< how leaves become patches
+    /// Of the tile's origin, for suns by date, degrees; empty: where the input says that it lies, else 50.1, 14.4
+    std::optional<double> latitudeDeg, longitudeDeg;
+    double northDeg = 0.0;             ///< clockwise from true north to +y, degrees
+    bool treeOnly = false;             ///< stop after the node tree: statistics, but no links and no content
+    std::function<bool()> interrupted; ///< asked now and then: true stops the bake with an error
     std::map<std::string, Attribute>
         attributes;     ///< of the rules, for all buildings; win over the footprints' properties
     LightOptions light; ///< method, thresholds, jobs and seed; jobs and seed hold for all steps
@@ -31,8 +41,14 @@ struct BakeStats
     u32 buildings = 0, nodes = 0, patches = 0, instances = 0;
     u64 triangles = 0; ///< drawn, instances counted
     u32 degeneratePolygons = 0, orphanOverlays = 0;
-    u32 overlappingNodes = 0; ///< planar nodes whose children overlap
-    double areaDefect = 0.0;  ///< area ledger: see NodeTreeBuild::areaDefect
+    u32 overlappingNodes = 0;                      ///< planar nodes whose children overlap
+    double areaDefect = 0.0;                       ///< area ledger: see NodeTreeBuild::areaDefect
+    u32 coveredPatches = 0;                        ///< on walls that a neighbour covers: they exchange no light
+    double coveredArea = 0.0;                      ///< m2 of these
+    u32 mergedLeaves = 0, slivers = 0, strips = 0; ///< see NodeTreeBuild
+    bool treeOnly = false;
+    DeriveCounts derivation;
+    std::map<std::string, u32> import; ///< census and repairs: Layout::counts
     LightStats light;
     std::map<std::string, double> reports; ///< report() of the rules, summed per key
     std::vector<std::string> notes;        ///< repaired or skipped input and warnings of the rules, one line each

@@ -51,6 +51,67 @@ nlohmann::ordered_json secondsJson(const std::vector<StepSeconds>& steps)
     return json;
 }
 
+void lightLines(std::string& text, const LightStats& light)
+{
+    line(text, "  links %llu, %.1f per patch", static_cast<unsigned long long>(light.linkCount), light.linksPerPatch);
+    rangeLine(text, "row sum + sky (1)", light.closure);
+    rangeLine(text, "row sum of links", light.rowSum);
+    rangeLine(text, "row sum by rays", light.rayRowSum);
+    rangeLine(text, "sky by rays", light.sky);
+    line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * light.closureDefect,
+         std::abs(light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
+    if (light.insidePatchCount > 0)
+        line(text,
+             "  %-20s %u patches, %.2f %% of the area: party walls and what stands inside a neighbour; not in the "
+             "sums above",
+             "inside", light.insidePatchCount, 100.0 * light.insideAreaShare);
+    line(text, "  %-20s error a link may leave %.3g, rays %u a patch, %u a link", "thresholds", light.formFactorEpsilon,
+         light.raysPerPatch, light.raysPerLink);
+}
+
+void derivationLines(std::string& text, const BakeStats& stats)
+{
+    const DeriveCounts& made = stats.derivation;
+    line(text, "  %-20s %llu shapes, %llu leaves; %llu roofs, of these simpler than asked %llu, flat %llu",
+         "derivation", static_cast<unsigned long long>(made.shapes), static_cast<unsigned long long>(made.leaves),
+         static_cast<unsigned long long>(made.roofs.roofs), static_cast<unsigned long long>(made.roofs.parts),
+         static_cast<unsigned long long>(made.roofs.flat));
+    line(text, "  %-20s %u patches, %.0f m2, exchange no light; %llu openings left out", "behind neighbours",
+         stats.coveredPatches, stats.coveredArea, static_cast<unsigned long long>(made.droppedOpenings));
+    line(text, "  %-20s %u leaves merged into others, %u of them slivers; %u strips cut", "patches", stats.mergedLeaves,
+         stats.slivers, stats.strips);
+}
+
+void addLight(nlohmann::ordered_json& json, const LightStats& light)
+{
+    json["links"] = light.linkCount;
+    json["links_per_patch"] = light.linksPerPatch;
+    json["planar_root_pairs"] = light.rootPairCount;
+    json["pairs_evaluated"] = light.pairsEvaluated;
+    json["rays_per_patch"] = light.raysPerPatch;
+    json["row_sum_plus_sky"] = rangeJson(light.closure);
+    json["row_sum_links"] = rangeJson(light.rowSum);
+    json["row_sum_rays"] = rangeJson(light.rayRowSum);
+    json["sky_rays"] = rangeJson(light.sky);
+    json["closure_defect"] = light.closureDefect;
+    json["inside_patches"] = light.insidePatchCount;
+    json["inside_area_share"] = light.insideAreaShare;
+    json["error_a_link_may_leave"] = light.formFactorEpsilon;
+    json["rays_per_link"] = light.raysPerLink;
+}
+
+nlohmann::ordered_json derivationJson(const BakeStats& stats)
+{
+    const DeriveCounts& made = stats.derivation;
+    return {{"shapes", made.shapes},
+            {"leaves", made.leaves},
+            {"covered_leaves", made.coveredLeaves},
+            {"dropped_openings", made.droppedOpenings},
+            {"roofs", made.roofs.roofs},
+            {"roofs_simplified", made.roofs.parts},
+            {"roofs_flat", made.roofs.flat}};
+}
+
 } // namespace
 
 double peakMemoryMiB()
@@ -65,21 +126,8 @@ std::string statsText(const BakeStats& stats, double peakMiB)
     std::string text;
     line(text, "  buildings %u, nodes %u, patches %u, asset instances %u, triangles %llu", stats.buildings, stats.nodes,
          stats.patches, stats.instances, static_cast<unsigned long long>(stats.triangles));
-    line(text, "  links %llu, %.1f per patch", static_cast<unsigned long long>(stats.light.linkCount),
-         stats.light.linksPerPatch);
-    rangeLine(text, "row sum + sky (1)", stats.light.closure);
-    rangeLine(text, "row sum of links", stats.light.rowSum);
-    rangeLine(text, "row sum by rays", stats.light.rayRowSum);
-    rangeLine(text, "sky by rays", stats.light.sky);
-    line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * stats.light.closureDefect,
-         std::abs(stats.light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
-    if (stats.light.insidePatchCount > 0)
-        line(text,
-             "  %-20s %u patches, %.2f %% of the area: party walls and what stands inside a neighbour; not in the "
-             "sums above",
-             "inside", stats.light.insidePatchCount, 100.0 * stats.light.insideAreaShare);
-    line(text, "  %-20s error a link may leave %.3g, rays %u a patch, %u a link", "thresholds",
-         stats.light.formFactorEpsilon, stats.light.raysPerPatch, stats.light.raysPerLink);
+    if (stats.derivation.shapes > 0) derivationLines(text, stats);
+    if (!stats.treeOnly) lightLines(text, stats.light);
     line(text, "  %-20s %.2e", "area-ledger defect", stats.areaDefect);
     if (stats.overlappingNodes > 0)
         line(text, "  %-20s %u (their children have more area than their outline)", "overlapping nodes",
@@ -90,7 +138,7 @@ std::string statsText(const BakeStats& stats, double peakMiB)
         line(text, "  %-20s %u (no patch behind them)", "dropped assets", stats.orphanOverlays);
     for (const auto& [key, value] : stats.reports) line(text, "  report %-13s %.6g", key.c_str(), value);
     secondsLine(text, "seconds", stats.seconds);
-    secondsLine(text, "of which light", stats.light.seconds);
+    if (!stats.treeOnly) secondsLine(text, "of which light", stats.light.seconds);
     line(text, "  %-20s %.0f MiB", "peak memory", peakMiB);
     for (size_t i = 0; i < std::min(stats.notes.size(), kMostNotes); ++i) text += "  note: " + stats.notes[i] + '\n';
     if (stats.notes.size() > kMostNotes) line(text, "  and %zu more notes", stats.notes.size() - kMostNotes);
@@ -105,28 +153,23 @@ std::string statsJson(const BakeStats& stats, double peakMiB)
     json["patches"] = stats.patches;
     json["asset_instances"] = stats.instances;
     json["triangles"] = stats.triangles;
-    json["links"] = stats.light.linkCount;
-    json["links_per_patch"] = stats.light.linksPerPatch;
-    json["planar_root_pairs"] = stats.light.rootPairCount;
-    json["pairs_evaluated"] = stats.light.pairsEvaluated;
-    json["rays_per_patch"] = stats.light.raysPerPatch;
-    json["row_sum_plus_sky"] = rangeJson(stats.light.closure);
-    json["row_sum_links"] = rangeJson(stats.light.rowSum);
-    json["row_sum_rays"] = rangeJson(stats.light.rayRowSum);
-    json["sky_rays"] = rangeJson(stats.light.sky);
-    json["closure_defect"] = stats.light.closureDefect;
-    json["inside_patches"] = stats.light.insidePatchCount;
-    json["inside_area_share"] = stats.light.insideAreaShare;
-    json["error_a_link_may_leave"] = stats.light.formFactorEpsilon;
-    json["rays_per_link"] = stats.light.raysPerLink;
+    if (stats.derivation.shapes > 0) json["derivation"] = derivationJson(stats);
+    if (!stats.import.empty()) json["import"] = stats.import;
+    json["covered_patches"] = stats.coveredPatches;
+    json["covered_area_m2"] = stats.coveredArea;
+    json["merged_leaves"] = stats.mergedLeaves;
+    json["slivers"] = stats.slivers;
+    json["strips"] = stats.strips;
+    if (!stats.treeOnly) addLight(json, stats.light);
     json["area_ledger_defect"] = stats.areaDefect;
     json["overlapping_nodes"] = stats.overlappingNodes;
     json["dropped_polygons"] = stats.degeneratePolygons;
     json["dropped_assets"] = stats.orphanOverlays;
-    json["reports"] = stats.reports;
+    json["report"] = stats.reports;
     json["seconds"] = secondsJson(stats.seconds);
-    json["seconds_light"] = secondsJson(stats.light.seconds);
+    if (!stats.treeOnly) json["seconds_light"] = secondsJson(stats.light.seconds);
     json["peak_memory_mib"] = peakMiB;
+    json["bytes_per_node"] = stats.nodes > 0 ? peakMiB * 1048576.0 / stats.nodes : 0.0;
     json["notes"] = stats.notes;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 add_executable(light_test
+    cities/tree_audit.cpp
+    numeric/covered_test.cpp
     numeric/fixtures.cpp
     numeric/form_factor_test.cpp
     numeric/links_test.cpp

@@ -44,6 +44,9 @@ struct Scene
     }
 };
 
+/// Every leaf a patch of its own.
+const NodeOptions kPlain{.patch = PatchMode::Piece, .mergeSize = 0.0, .stripHeight = 0.0, .maxPatch = 0.0};
+
 /// Invariants of every node tree (city/model/node_tree.h).
 void checkTree(const NodeTree& tree)
 {
@@ -72,7 +75,7 @@ TEST(BuildNodes, ARowOfBaysBecomesABalancedBinaryTreeOfRectangles)
     Scene scene;
     const u32 facade = scene.add(0, ShapeOp::Component);
     for (int i = 0; i < 8; ++i) scene.addLeaf(facade, {wall(i, 0, i + 1, 3)});
-    const NodeTree tree = buildNodes(scene.tree, {}).tree;
+    const NodeTree tree = buildNodes(scene.tree, {}, kPlain).tree;
     checkTree(tree);
     ASSERT_EQ(tree.patchCount(), 8u);
     EXPECT_EQ(tree.nodeCount(), 8u + 7u);
@@ -124,7 +127,7 @@ TEST(BuildNodes, ProtrudingPartsDoNotBreakTheFacade)
     const Polygon3 sillFront{{{0, -0.1, 0.9}, {1, -0.1, 0.9}, {1, -0.1, 1}, {0, -0.1, 1}}, {}};
     scene.addLeaf(bay, {sillTop, sillFront}, ShapeOp::Rule);
     scene.addLeaf(facade, {wall(1, 0, 2, 3)});
-    const NodeTree tree = buildNodes(scene.tree, {}).tree;
+    const NodeTree tree = buildNodes(scene.tree, {}, kPlain).tree;
     checkTree(tree);
     ASSERT_EQ(tree.patchCount(), 4u);
     // Both wall pieces hang under one planar node in spite of the sill between them.
@@ -204,7 +207,7 @@ TEST(BuildNodes, TwentyThousandPlanesUnderOneShapeKeepTheirOrder)
             scene.addLeaf(face, slats);
         else
             for (const Polygon3& polygon : slats) scene.addLeaf(face, {polygon});
-        const NodeTree tree = buildNodes(scene.tree, {}).tree;
+        const NodeTree tree = buildNodes(scene.tree, {}, kPlain).tree;
         ASSERT_EQ(tree.patchCount(), oneLeaf ? kCount : kCount + 1);
         const u32 root = tree.nodeCount() - 1;
         EXPECT_EQ(tree.nodes[root].kind, NodeKind::Cluster);

@@ -163,35 +163,9 @@ TEST(GrammarSurfaces, ColorMaterialAndEmission)
     EXPECT_EQ(lamp.emission, glm::dvec4(100, 0, 10, 0.2126 * 100 + 0.0722 * 10));
     EXPECT_EQ(errorOf("Lot --> set(material.emissive.r, -1) X.").substr(0, 55),
               "t.cga:1:34: building 'b': an emission must not be negat");
-    EXPECT_EQ(
-        mustDerive("Lot --> set(material.bumpmap, \"x\") texture(\"y\") A.", {boxFootprint(1, 1, 1)}).warnings.size(),
-        2u);
-}
-
-// ---- neighbours
-TEST(GrammarNeighbours, TouchesKnowsCoveredWalls)
-{
-    Footprint box = boxFootprint(10, 8, 12);
-    box.coveredHeight = {0, 6, 5.9, 12}; // right covered up to the middle, back just below, left wholly
-    const Derivation d =
-        mustDerive("Lot --> extrude(12) comp(f) { side : Wall | all : NIL }\nWall --> case touches(inter) : Blank. "
-                   "else : split(y) { ~3 : Floor }*\nFloor --> case inside(inter) : Covered. else : Free.",
-                   {box});
-    EXPECT_NEAR(areaOf(d, "Blank"), 12 * 8 * 2, 1e-9);
-    // The back's floors: 0-3 and 3-6 have their middles (1.5, 4.5) below 5.9.
-    EXPECT_NEAR(areaOf(d, "Covered"), 10 * 6, 1e-9);
-    EXPECT_NEAR(areaOf(d, "Free"), 10 * 6 + 10 * 12, 1e-9);
-    EXPECT_EQ(errorOf("Lot --> case touches(intra) : A. else : B.").substr(0, 11), "t.cga:1:22:");
-}
-
-TEST(GrammarNeighbours, HoleEdgesFollowTheOuterOnes)
-{
-    Footprint court = footprintOf({{0, 0}, {10, 0}, {10, 10}, {0, 10}}, 6, {{{3, 3}, {3, 7}, {7, 7}, {7, 3}}});
-    court.coveredHeight[5] = 6; // the hole's second edge, y = 7
-    const Derivation d = mustDerive(
-        "Lot --> extrude(6) comp(f) { side : case touches(inter) : Blank. else : NIL | all : NIL }", {court});
-    ASSERT_EQ(leavesOf(d, "Blank").size(), 1u);
-    expectNear(boundsOf(d, *leavesOf(d, "Blank")[0]).first, {3, 7, 0});
+    EXPECT_EQ(mustDerive("Lot --> set(material.bumpmap, \"x\") texture(\"y\") projectUV(0) A.", {boxFootprint(1, 1, 1)})
+                  .warnings.size(),
+              2u);
 }
 
 // ---- randomness
@@ -317,7 +291,6 @@ TEST(GrammarLimits, RunawayRulesEndWithAMessage)
     says("Lot --> A(0)\nA(n) --> case n > 30 : X. else : A(n + 1) A(n + 1)", "more than");
     says("Lot --> extrude(1e9) X.", "grows beyond");
     says("Lot --> t(0, 1e300, 0) t(0, 1e300, 0) X.", "grows beyond");
-    says("Lot --> s(-1, 1, 1) X.", "mirror");
     says("Lot --> extrude(3) extrude(3) X.", "solid");
     says("Lot --> i(\"a.glb\") split(x) { 1 : X. }", "cannot be divided");
     says("Lot --> primitiveCube(0, 1, 1) X.", "above 0");

@@ -2,27 +2,21 @@
 // Plane clipping, extrusion and face selection on shapes whose areas and volumes are known by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "city/base/hash.h"
 #include "city/grammar/clip.h"
 #include "city/grammar/component.h"
+#include "tests/unit/grammar_solids.h"
 
 namespace helio::cga {
 namespace {
 
-/// A face in the plane y = 0 that looks up; the ring is given as x, -z, counter-clockwise from above.
 Geometry flat(const std::vector<glm::dvec2>& outer, const std::vector<std::vector<glm::dvec2>>& holes = {})
 {
-    Geometry geometry;
-    Face& face = geometry.faces.emplace_back();
-    for (const glm::dvec2& p : outer) face.polygon.outer.emplace_back(p.x, 0, -p.y);
-    for (const auto& hole : holes) {
-        Ring3& ring = face.polygon.holes.emplace_back();
-        for (const glm::dvec2& p : hole) ring.emplace_back(p.x, 0, -p.y);
-    }
-    return geometry;
+    return flatShape(outer, holes);
 }
 
 const std::vector<glm::dvec2> kL = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};             // area 64
@@ -158,6 +152,88 @@ TEST(GrammarGeometry, CutSolidsAreClosedAgain)
         const Geometry storey = clipSlab(solid, 1, 2, 4);
         EXPECT_NEAR(area(storey), area(solid) - 4 * (area(solid) - 2 * whole) / 6, 1e-9);
     }
+}
+
+// Both halves of many cuts are closed edge by edge, also where the cut runs through corners and along faces.
+TEST(GrammarGeometry, EachEdgeOfACutSolidBelongsToTwoFaces)
+{
+    const std::vector<glm::dvec2> comb = {{0, 0}, {10, 0}, {10, 4}, {8, 4}, {8, 2}, {6, 2},
+                                          {6, 4}, {4, 4},  {4, 2},  {2, 2}, {2, 4}, {0, 4}};
+    for (const Geometry& solid :
+         {extrude(flat(kSquare, {kHole}), {0, 6, 0}, false), extrude(flat(kL), {0, 6, 0}, false),
+          extrude(flat(kU), {0, 6, 0}, false), extrude(flat(comb), {0, 6, 0}, false), gabledPrism(8, 6, 3)}) {
+        ASSERT_EQ(openEdges(solid), 0u);
+        const auto [low, high] = bounds(solid);
+        for (int axis = 0; axis < 3; ++axis)
+            for (int k = 1; k < 40; ++k) {
+                const double at = low[axis] + (high[axis] - low[axis]) * k / 40;
+                const Geometry below = clipSlab(solid, axis, low[axis], at),
+                               above = clipSlab(solid, axis, at, high[axis]);
+                EXPECT_EQ(openEdges(below), 0u) << "axis " << axis << " at " << at;
+                EXPECT_EQ(openEdges(above), 0u) << "axis " << axis << " at " << at;
+                EXPECT_NEAR(volume(below) + volume(above), volume(solid), 1e-9);
+            }
+        // Inclined planes, through the middle in eight directions.
+        for (int k = 0; k < 8; ++k) {
+            const glm::dvec3 normal = glm::normalize(glm::dvec3(std::cos(k), std::sin(2.0 * k) / 2, std::sin(k)));
+            const double offset = glm::dot(normal, 0.5 * (low + high));
+            const Geometry a = clipPlane(solid, normal, offset), b = clipPlane(solid, -normal, -offset);
+            EXPECT_EQ(openEdges(a), 0u) << "plane " << k;
+            EXPECT_EQ(openEdges(b), 0u) << "plane " << k;
+            EXPECT_NEAR(volume(a) + volume(b), volume(solid), 1e-9);
+        }
+    }
+}
+
+// Two towers on one slab touch the cut at 4 m with their feet: the slab's top is one face with the towers' feet, and
+// the towers end there.
+TEST(GrammarGeometry, CapsJoinFacesThatLieInTheCut)
+{
+    Geometry slab = extrude(flat(kU), {0, 6, 0}, false);
+    const Geometry low = clipSlab(slab, 1, 0, 4);
+    size_t tops = 0;
+    for (const Face& face : low.faces) tops += vectorArea(face.polygon).y > 1e-6 ? 1 : 0;
+    EXPECT_EQ(tops, 1u);
+    // Cut again at the same height: nothing changes.
+    EXPECT_EQ(clipSlab(low, 1, 0, 4).faces.size(), low.faces.size());
+    EXPECT_TRUE(clipSlab(low, 1, 4, 5).faces.empty());
+}
+
+// A prism stands on its edge, which lies in the cut; one of its two slopes is made of two faces. The corner between
+// them must stay a corner of the other slope, though that passes it in a straight line. A box beside it is cut.
+TEST(GrammarGeometry, CornersOnTheCutAreShared)
+{
+    const glm::dvec3 p(0, 0, 0), c(2, 0, 0), q(4, 0, 0), a(0, 3, -2), b(4, 3, -2), d(0, 3, 2), e(4, 3, 2), m(2, 3, 2);
+    Geometry solid = extrude(flat({{10, 0}, {12, 0}, {12, 2}, {10, 2}}), {0, 3, 0}, false);
+    for (Face& face : solid.faces)
+        for (glm::dvec3& corner : face.polygon.outer) corner.y -= 2;
+    for (const Ring3& ring : {Ring3{p, a, b, q, c}, Ring3{p, c, m, d}, Ring3{c, q, e, m}, Ring3{a, d, m, e, b},
+                              Ring3{p, d, a}, Ring3{q, b, e}})
+        solid.faces.emplace_back().polygon.outer = ring;
+    ASSERT_EQ(openEdges(solid), 0u);
+    ASSERT_NEAR(volume(solid), 24 + 12, 1e-9);
+    const Geometry high = clipSlab(solid, 1, 0, 3);
+    EXPECT_EQ(openEdges(high), 0u);
+    EXPECT_NEAR(volume(high), 24 + 4, 1e-9);
+}
+
+TEST(GrammarGeometry, PartsOfALotKeepTheNumbersOfTheirEdges)
+{
+    Geometry lot = flat(kL);
+    lot.faces[0].edges = {0, 1, 2, 3, 4, 5};
+    const Geometry left = clipSlab(lot, 0, 0, 2);
+    ASSERT_EQ(left.faces.size(), 1u);
+    const Geometry solid = extrude(left, {0, 3, 0}, false);
+    std::vector<u32> numbers;
+    for (const Face& face : solid.faces)
+        if (std::abs(unitNormal(face.polygon).y) < 0.5) numbers.push_back(face.edge);
+    std::sort(numbers.begin(), numbers.end());
+    // Of the L's edges, the first, the fifth (upper end) and the last (left side) bound the strip; the cut has none.
+    EXPECT_EQ(numbers, (std::vector<u32>{0, 4, 5, kNoIndex}));
+    // The top of a tagged extrusion knows the edges below it.
+    const Geometry tagged = extrude(flat(kSquare), {0, 3, 0}, true);
+    EXPECT_EQ(tagged.faces[4].edges, (std::vector<u32>{0, 1, 2, 3}));
+    EXPECT_TRUE(tagged.faces[5].edges.empty());
 }
 
 TEST(GrammarGeometry, Measures)

@@ -74,9 +74,9 @@ TEST(Midrise, WindowsOfAPlainBoxAgreeWithACountByHand)
 TEST(Midrise, CoveredWallsAreBlank)
 {
     Footprint box = boxFootprint(18, 14, 21);
-    box.coveredHeight[3] = 10;
+    cover(box, 3, 10);
     EXPECT_EQ(reportOf(mustDerive(midrise(), {box}, plain()), "windows"), 123 - 14);
-    box.coveredHeight[3] = 10.5;
+    cover(box, 3, 10.5);
     EXPECT_EQ(reportOf(mustDerive(midrise(), {box}, plain()), "windows"), 123 - 29);
 }
 

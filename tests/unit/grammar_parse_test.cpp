@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The traps of CGA's syntax, and the messages for text that is refused.
+#include <algorithm>
+
 #include "tests/unit/grammar_support.h"
 
 namespace helio::test {
@@ -135,16 +137,15 @@ TEST(GrammarParse, RefusalsNameThePlace)
 {
     EXPECT_EQ(errorOf("Lot --> extrude(5)\n  frobnicate(3) X."),
               "t.cga:2:3: unknown operation or rule 'frobnicate': README.md in city/grammar lists what is read");
-    EXPECT_EQ(errorOf("Lot -->\n  extrude(9) comp(f) { top : roofHip(byAngle, 30) X. }"),
-              "t.cga:2:30: the operation 'roofHip' is not supported: pitched roofs are not supported: keep the flat "
-              "top of extrude, comp(f) { top : Roof }");
+    EXPECT_EQ(errorOf("Lot -->\n  extrude(9) comp(f) { top : scatter(surface, 30) { X. } }").substr(0, 57),
+              "t.cga:2:30: the operation 'scatter' is not supported: use");
     EXPECT_EQ(errorOf("Lot --> inline(unify) { A }").substr(0, 39), "t.cga:1:9: the operation 'inline' is no");
-    EXPECT_EQ(errorOf("Lot --> X.\nimport a : \"b.cga\"").substr(0, 37), "t.cga:2:1: imports are not supported:");
-    EXPECT_EQ(errorOf("Lot --> X.\nstyle Plaster\nattr a = 1").substr(0, 36), "t.cga:2:1: styles are not supported:");
+    EXPECT_EQ(errorOf("Lot --> X.\nextension Roof --> X."),
+              "t.cga:2:1: 'extension' is not supported: leave it out, and declare the rule in a style");
     EXPECT_EQ(errorOf("Lot --> extrude(heigth) X.").substr(0, 36), "t.cga:1:17: unknown name 'heigth': d");
     EXPECT_EQ(errorOf("a = fileRandom(\"*.jpg\")\nLot --> X.").substr(0, 50),
               "t.cga:1:5: the function 'fileRandom' is not suppor");
-    EXPECT_EQ(errorOf("Lot --> comp(e) { all : X. }").substr(0, 48),
+    EXPECT_EQ(errorOf("Lot --> comp(m) { all : X. }").substr(0, 48),
               "t.cga:1:9: 'comp' does not know this bare word: ");
     EXPECT_EQ(errorOf("Lot --> comp(f) { fron : X. }").substr(0, 36), "t.cga:1:19: unknown selector 'fron':");
     EXPECT_EQ(errorOf("Lot --> split(u) { 1 : X. }").substr(0, 30), "t.cga:1:9: 'split' does not kn");
@@ -187,22 +188,22 @@ TEST(GrammarParse, DeepNestingIsRefused)
         for (int k = 0; k < n; ++k) text += close;
         return text;
     };
-    const std::string blocks = deep("split(x) { 1 : ", "X.", " }", 100000), parentheses = deep("(", "1", ")", 100000),
-                      pushes = deep("[ ", "X.", " ]", 100000);
+    const std::string blocks = deep("split(x) { 1 : ", "X.", " }", 20000), parentheses = deep("(", "1", ")", 20000),
+                      pushes = deep("[ ", "X.", " ]", 20000);
     EXPECT_NE(errorOf("Lot --> " + blocks).find("nested deeper than"), std::string::npos);
     EXPECT_NE(errorOf("Lot --> " + pushes).find("nested deeper than"), std::string::npos);
     EXPECT_NE(errorOf("a = " + parentheses + "\nLot --> X.").find("nested deeper than"), std::string::npos);
-    EXPECT_NE(errorOf("a = " + deep("-", "1", "", 100000) + "\nLot --> X.").find("nested deeper than"),
+    EXPECT_NE(errorOf("a = " + deep("-", "1", "", 20000) + "\nLot --> X.").find("nested deeper than"),
               std::string::npos);
-    EXPECT_NE(errorOf("a = 1" + deep("+1", "", "", 100000) + "\nLot --> X.").find("nests deeper than"),
+    EXPECT_NE(errorOf("a = 1" + deep("+1", "", "", 20000) + "\nLot --> X.").find("nests deeper than"),
               std::string::npos);
-    EXPECT_NE(errorOf("Lot --> " + deep("case 1 > 0 : ", "X.", " else : X.", 100000)).find("nested deeper than"),
+    EXPECT_NE(errorOf("Lot --> " + deep("case 1 > 0 : ", "X.", " else : X.", 20000)).find("nested deeper than"),
               std::string::npos);
 }
 
-// Every prefix of a correct file, and the file with any one byte replaced, gives rules or one line that starts with the
+// Every prefix of a correct file, and the file with any one byte replaced, gives rules or errors that start with the
 // place.
-TEST(GrammarParse, AnyTextGivesRulesOrALine)
+TEST(GrammarParse, AnyTextGivesRulesOrErrors)
 {
     const std::string text = "version \"2021.0\"\n@Range(min=1)\nattr a = 30% : '1' else : 2 + f(3, \"x\\\"\")\nf(x, "
                              "y) = case x > 1 && !(y == \"b\") : x else : -x\n"
@@ -211,8 +212,9 @@ TEST(GrammarParse, AnyTextGivesRulesOrALine)
     const auto check = [](const std::string& rules) {
         const auto parsed = parseRules(rules, "t.cga");
         if (parsed.ok()) return;
-        EXPECT_EQ(parsed.error().message.rfind("t.cga:", 0), 0u) << parsed.error().message;
-        EXPECT_EQ(parsed.error().message.find('\n'), std::string::npos);
+        const std::string& message = parsed.error().message;
+        EXPECT_EQ(message.rfind("t.cga:", 0), 0u) << message;
+        EXPECT_LE(std::count(message.begin(), message.end(), '\n'), 60) << message;
     };
     for (size_t length = 0; length < text.size(); ++length) check(text.substr(0, length));
     for (size_t k = 0; k < text.size(); ++k)

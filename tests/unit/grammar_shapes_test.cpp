@@ -266,19 +266,26 @@ TEST(GrammarShapes, AssetSizesThatAreZeroFollowTheAsset)
     options.assetBox = [](const std::string&) -> Result<AssetBox> {
         return AssetBox{{-1, 0, 2}, {1, 4, 3}};
     }; // 2 x 4 x 1
+    glm::dvec3 corner;
     const auto sizes = [&](const std::string& operations) {
         const Derivation d =
             mustDerive("Lot --> [ " + operations +
                            " i(\"a.glb\") report(\"x\", scope.sx) report(\"y\", scope.sy) report(\"z\", scope.sz) A. ]",
                        {boxFootprint(10, 8, 6)}, options);
-        const Shape& leaf = *leavesOf(d, "A")[0];
-        expectNear(placed(leaf, {-1, 0, 2}), {0, 8, 0}); // the box's lowest corner sits in the scope's origin
+        corner = placed(*leavesOf(d, "A")[0], {-1, 0, 2}); // the box's lowest corner
         return glm::dvec3(d.reports.at("x"), d.reports.at("y"), d.reports.at("z"));
     };
     expectNear(sizes("s(6, 4, 5)"), {6, 4, 5});
-    expectNear(sizes("s(0, 0, 0)"), {2, 4, 1}); // its own size
-    expectNear(sizes("s(0, 8, 0)"), {4, 8, 2}); // uniform scale 2
+    expectNear(corner, {0, 8, 0});              // in the scope's origin
+    expectNear(sizes("s(0, 0, 0)"), {2, 4, 1}); // its own size, and its own origin in the scope's: z points south
+    expectNear(corner, {-1, 8 - 2, 0});
+    expectNear(sizes("s(0, 8, 0)"), {4, 8, 2}); // uniform scale 2, and its own place along x and z
+    expectNear(corner, {-2, 8 - 4, 0});
     expectNear(sizes("s(6, 4, 0)"), {6, 4, 2}); // depth: mean of the scales 3 and 1, times 1
+    expectNear(corner, {0, 8, 0});
+    // The same by the mode of insertion; the third one stands in the middle of the scope's floor (10 x 8 m).
+    expectNear(sizes("i(\"a.glb\", yUp, keepSizeAndPosition)"), {2, 4, 1});
+    expectNear(sizes("i(\"a.glb\", yUp, keepSizeAlignPosition)"), {2, 4, 1});
     const Derivation up =
         mustDerive("Lot --> s(0, 0, 0) i(\"a.glb\", zUp) report(\"y\", scope.sy) report(\"z\", scope.sz) A.",
                    {boxFootprint(10, 8, 6)}, options);

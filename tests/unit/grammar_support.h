@@ -14,8 +14,9 @@ inline Footprint footprintOf(Ring2 outer, double height, std::vector<Ring2> hole
 {
     Footprint footprint;
     footprint.id = std::move(id);
-    footprint.coveredHeight.assign(outer.size(), 0.0);
-    for (const Ring2& hole : holes) footprint.coveredHeight.resize(footprint.coveredHeight.size() + hole.size(), 0.0);
+    size_t edges = outer.size();
+    for (const Ring2& hole : holes) edges += hole.size();
+    footprint.covered.resize(edges);
     footprint.outline = {std::move(outer), std::move(holes)};
     footprint.height = height;
     return footprint;
@@ -25,6 +26,12 @@ inline Footprint footprintOf(Ring2 outer, double height, std::vector<Ring2> hole
 inline Footprint boxFootprint(double x, double y, double height)
 {
     return footprintOf({{0, 0}, {x, 0}, {x, y}, {0, y}}, height);
+}
+
+/// Covers a whole edge of a footprint up to a height.
+inline void cover(Footprint& footprint, size_t edge, double height)
+{
+    footprint.covered.at(edge) = {{0.0, 1e3, height}};
 }
 
 /// Every asset is the unit cube, in asset units.
@@ -53,11 +60,11 @@ inline Derivation mustDerive(std::string_view rules, const std::vector<Footprint
     return derivation.ok() ? std::move(*derivation) : Derivation{};
 }
 
-/// The error of rules that must be refused, at parsing or at derivation on a 10 x 10 x 10 m box.
+/// The first line of the error of rules that must be refused, at parsing or at derivation on a 10 x 10 x 10 m box.
 inline std::string errorOf(std::string_view rules)
 {
     const auto derivation = deriveText(rules, {boxFootprint(10, 10, 10)});
-    return derivation.ok() ? "no error" : derivation.error().message;
+    return derivation.ok() ? "no error" : derivation.error().message.substr(0, derivation.error().message.find('\n'));
 }
 
 /// The leaves of a name, in order.

@@ -27,7 +27,7 @@ TEST(PolygonRepair, KeepsACleanPolygonToTheLastBit)
     const auto pieces = cleanPolygon(clean, report);
     ASSERT_EQ(pieces.size(), 1u);
     EXPECT_EQ(pieces[0].outer, clean.outer);
-    EXPECT_EQ(describeRepairs(report), "");
+    EXPECT_TRUE(repairItems(report).empty());
     EXPECT_EQ(report.reversedRings, 0u);
 }
 
@@ -89,7 +89,7 @@ TEST(PolygonRepair, KeepsANarrowWedgeThatIsNoSpike)
 TEST(PolygonRepair, DropsStraightCornersButNotACurve)
 {
     RepairReport report;
-    const auto box = cleanPolygon({{{0, 0}, {5, 0.001}, {10, 0}, {10, 8}, {0, 8}}, {}}, report);
+    const auto box = cleanPolygon({{{0, 8}, {0, 0}, {5, 0.001}, {10, 0}, {10, 8}}, {}}, report);
     EXPECT_EQ(box.at(0).outer.size(), 4u);
     EXPECT_EQ(report.straightCorners, 1u);
 
@@ -106,6 +106,25 @@ TEST(PolygonRepair, DropsStraightCornersButNotACurve)
     const auto round = cleanPolygon(circle, report);
     ASSERT_EQ(round.size(), 1u);
     EXPECT_NEAR(area(round[0]), std::numbers::pi * 2500.0, 2.0 * std::numbers::pi * 50.0 * 0.02);
+}
+
+TEST(PolygonRepair, KeepsTheEndsOfTheFirstEdge)
+{
+    RepairReport report; // (0, 0) and (5, 0) lie on the line from (-5, 0) to (10, 0), (2, 8) on the upper side
+    const Ring2 marked{{0, 0}, {5, 0}, {10, 0}, {10, 8}, {2, 8}, {-5, 8}, {-5, 0}};
+    const auto pieces = cleanPolygon({marked, {}}, report);
+    EXPECT_EQ(pieces.at(0).outer, (Ring2{{0, 0}, {5, 0}, {10, 0}, {10, 8}, {-5, 8}, {-5, 0}}));
+    EXPECT_EQ(report.straightCorners, 1u);
+}
+
+TEST(PolygonRepair, NamesEachKindOfRepairOnce)
+{
+    RepairReport report;
+    cleanPolygon({{{0, 0}, {10, 0}, {10, 0}, {10, 8}, {10, 20}, {10, 8}, {0, 8}}, {{{1, 1}, {2, 2}, {3, 3}}}}, report);
+    std::vector<std::string> kinds;
+    for (const auto& [kind, words] : repairItems(report)) kinds.push_back(kind);
+    EXPECT_EQ(kinds,
+              (std::vector<std::string>{"repaired.duplicate_corners", "repaired.spikes", "repaired.lost_holes"}));
 }
 
 TEST(PolygonRepair, CollapsesShortEdgesOntoTheTrueCorner)

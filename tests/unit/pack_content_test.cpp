@@ -73,19 +73,23 @@ struct Built
     std::string message{};
 };
 
-Built buildSample(const ContentLimits& limits = {})
+Built buildSample(const ContentLimits& limits = {}, const ShapeTree& shapes = sampleShapes(),
+                  const NodeOptions& options = {})
 {
     const std::vector<AssetMesh> meshes = {triangleAsset(9, glm::dvec4(0)), triangleAsset(1, {0.2, 0.2, 0.2, 0.3}),
                                            triangleAsset(0.25f, glm::dvec4(0))};
     std::vector<AssetSummary> summaries;
     for (const AssetMesh& mesh : meshes) summaries.push_back({mesh.rho, 0.5 * (mesh.boxMin + mesh.boxMax)});
-    Built built{buildNodes(sampleShapes(), summaries), {}};
+    Built built{buildNodes(shapes, summaries, options), {}};
     LightBake light;
     light.links.rowBegin.assign(built.nodes.tree.nodeCount() + 1, 0);
     light.sky.skyPatches = {{{0, 0, 1}, 6.2831853f}};
-    light.sky.rowBegin = {0, 1, 2, 3};
-    light.sky.column = {0, 0, 0};
-    light.sky.factor = {0.5f, 0.5f, 1.0f};
+    light.sky.rowBegin = {0};
+    for (u32 i = 0; i < built.nodes.tree.patchCount(); ++i) {
+        light.sky.column.push_back(0);
+        light.sky.factor.push_back(0.5f);
+        light.sky.rowBegin.push_back(i + 1);
+    }
     Result<PackContent> content = buildContent(built.nodes, meshes, std::move(light), limits);
     built.fits = content.ok();
     if (content)
@@ -202,6 +206,62 @@ TEST(PackContent, BoundsHoldMeshesAndInstances)
     EXPECT_FLOAT_EQ(index.boundsMax.x, 4.0f);
     EXPECT_FLOAT_EQ(index.boundsMax.y, 1000.3f);
     EXPECT_FLOAT_EQ(index.boundsMax.z, 2.0f);
+}
+
+TEST(PackContent, ABayIsOnePatchWhosePartsKeepTheirAlbedo)
+{
+    const Built built = buildSample({}, sampleShapes(), {.patch = PatchMode::Bay});
+    const PackContent& c = built.content;
+    const Status status = validateTile(c.view(), c.index, {});
+    ASSERT_TRUE(status.ok()) << status.error().message;
+    ASSERT_EQ(c.patches.size(), 2u) << "wall and window; the ground";
+    // 2 m2 of wall and 4 m2 of window.
+    EXPECT_FLOAT_EQ(c.patches[0].area, 6.0f);
+    EXPECT_FLOAT_EQ(c.patches[0].rho.r, float((2 * 0.6 + 4 * 0.2) / 6));
+    EXPECT_FLOAT_EQ(c.patches[0].rho.a, float((2 * 0.52 + 4 * 0.3) / 6));
+    u32 corners = 0;
+    for (u32 v = 0; v < c.draws[1].vertexOffset; ++v) {
+        if (c.vertices[v].patchId != 0) continue;
+        ++corners;
+        EXPECT_EQ(c.vertices[v].albedo, packAlbedo({0.6, 0.5, 0.4})) << "drawn with the wall's own colour";
+    }
+    EXPECT_EQ(corners, 4u);
+    EXPECT_EQ(c.instances[1].patchId, 0u);
+    EXPECT_EQ(c.instances[2].patchId, 0u);
+}
+
+TEST(PackContent, ATrimmedAssetIsCutAndDrawnByItself)
+{
+    // The sill is a triangle of corners (1.5, 0.2), (2.5, 0.2), (1.5, 1.2) in x and z; what lies beyond x = 2 goes.
+    ShapeTree shapes = sampleShapes();
+    shapes.trimPlanes = {{0, 0, 1, 100}, {-1, 0, 0, 2}};
+    shapes.shapes[4].trimBegin = 1;
+    shapes.shapes[4].trimCount = 1;
+    const Built built = buildSample({}, shapes);
+    const PackContent& c = built.content;
+    const Status status = validateTile(c.view(), c.index, {});
+    ASSERT_TRUE(status.ok()) << status.error().message;
+    ASSERT_EQ(c.draws.size(), 2u) << "static mesh and window: the sill has no whole instance";
+    EXPECT_EQ(c.instances.size(), 2u);
+    double area = 0.0;
+    for (u32 k = 0; k < c.draws[0].indexCount; k += 3) {
+        const gpu::VertexRecord &v0 = c.vertices[c.indices[k]], &v1 = c.vertices[c.indices[k + 1]],
+                                &v2 = c.vertices[c.indices[k + 2]];
+        if (v0.patchId != 1) continue;
+        const glm::vec3 twice = glm::cross(v1.position - v0.position, v2.position - v0.position);
+        EXPECT_LT(twice.y, 0.0f) << "it still faces south";
+        area += 0.5 * double(glm::length(twice));
+        for (const gpu::VertexRecord* v : {&v0, &v1, &v2}) {
+            EXPECT_LE(v->position.x, 2.0f + 1e-6f);
+            EXPECT_NEAR(v->position.y, 1000.3 - 0.25, 1e-4);
+            EXPECT_EQ(v->normal, packNormal({0, -1, 0}));
+            EXPECT_EQ(v->albedo, packAlbedo({1, 0.5, 0}));
+        }
+    }
+    EXPECT_NEAR(area, 0.5 - 0.125, 1e-5);
+    // A plane that keeps nothing leaves nothing to draw.
+    shapes.trimPlanes[1] = {-1, 0, 0, 1};
+    EXPECT_EQ(buildSample({}, shapes).content.vertices.size(), 4u + 8u + 3u);
 }
 
 TEST(PackVertex, NormalsAndAlbedosByHand)

@@ -2,10 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "city/base/file.h"
+#include "city/grammar/explain.h"
 #include "city/pack/export.h"
 #include "city/pack/pipeline.h"
+#include "city/pack/rule_source.h"
 #include "city/pack/stats_text.h"
 #include "city/pack/writer.h"
 #include "tools/bake/inspect.h"
@@ -20,9 +23,10 @@ namespace {
 struct CommandLine
 {
     BakeOptions bake;
-    std::string output, stats, pack, surfaces;
+    std::string output, stats, pack, surfaces, explain;
     std::vector<std::string> attributes; ///< NAME=VALUE
-    std::string method = methodName(LinkMethod::Heliopolis);
+    std::vector<double> bbox;            ///< west, south, east, north
+    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece";
     bool zstd = false;
 };
 
@@ -30,26 +34,49 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
 {
     BakeOptions& bake = line.bake;
     app.add_option("INPUT", bake.input,
-                   "GeoJSON footprints (metres), or an OBJ scene with --surfaces; without it the built-in city");
+                   "GeoJSON or CityJSON footprints, or an OBJ scene with --surfaces; without it the built-in city");
     app.add_option("-o,--output", line.output, "pack folder to write; an existing pack is replaced");
-    app.add_option("--surfaces", bake.surfaces, "CSV file of an OBJ scene: row k describes face k");
+    app.add_option(
+           "--surfaces", line.surfaces,
+           "lod2: take the walls and roofs that a CityJSON file models; else the CSV file of an OBJ scene, whose "
+           "row k describes face k")
+        ->type_name("lod2|CSV");
+    app.add_option("--streets", bake.import.streets,
+                   "GeoJSON of street centre-lines, in the footprints' coordinates: fronts face them");
+    app.add_option("--bbox", line.bbox, "only footprints whose centroid lies in this box of the file's coordinates")
+        ->expected(4)
+        ->delimiter(',')
+        ->type_name("WEST,SOUTH,EAST,NORTH");
+    app.add_option("--limit", bake.import.limit, "only the first footprints, in the order of the file")
+        ->check(CLI::PositiveNumber);
     app.add_option("--rules", bake.rules,
-                   "CGA rule file (default: the shipped one); assets from its folder's assets/ or ../assets/");
+                   "CGA rule file, or a shipped one by name: midrise.cga, rowhouse.cga, tower.cga, city.cga (default: "
+                   "city.cga for the built-in city, else midrise.cga); assets from its folder's assets/ or ../assets/");
+    app.add_option("--style", bake.style, "style of the rule file");
+    app.add_option("--explain", line.explain, "print attributes and rule graph of a rule file, and do nothing else")
+        ->type_name("RULES");
+    app.add_option("--patch", line.patch,
+                   "what exchanges light as one: piece, or bay = wall and opening of a bay together")
+        ->check(CLI::IsMember({"piece", "bay"}))
+        ->type_name("MODE")
+        ->capture_default_str();
+    app.add_flag("--tree-only", bake.treeOnly,
+                 "derive the buildings and make their node tree, print statistics, and stop: no links, no pack");
     app.add_option("--set", line.attributes,
                    "attribute of the rules for all buildings, repeatable: LOD=mass, height=20")
         ->type_name("NAME=VALUE")
         ->take_all()
         ->allow_extra_args(false);
-    app.add_option("--lat", bake.latitudeDeg, "latitude of the origin, degrees")
-        ->check(numberIn(-90.0, 90.0))
-        ->capture_default_str();
-    app.add_option("--lon", bake.longitudeDeg, "longitude of the origin, degrees")
-        ->check(numberIn(-180.0, 180.0))
-        ->capture_default_str();
+    app.add_option("--lat", bake.latitudeDeg,
+                   "latitude of the origin, degrees (default: what the input says, else 50.1)")
+        ->check(numberIn(-90.0, 90.0));
+    app.add_option("--lon", bake.longitudeDeg,
+                   "longitude of the origin, degrees (default: what the input says, else 14.4)")
+        ->check(numberIn(-180.0, 180.0));
     app.add_option("--north", bake.northDeg, "clockwise angle from true north to +y, degrees")
         ->check(numberIn(-360.0, 360.0))
         ->capture_default_str();
-    app.add_option("--height", bake.defaultHeight, "height of footprints that do not state one, metres")
+    app.add_option("--height", bake.import.defaultHeight, "height of footprints that do not state one, metres")
         ->check(numberIn(1.0, 1000.0))
         ->capture_default_str();
     app.add_option("--seed", bake.light.seed, "seed of every random choice")->capture_default_str();
@@ -79,29 +106,76 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
     app.add_flag("--zstd", line.zstd, "pack the sections with zstd: a smaller file that is not mapped but unpacked");
 }
 
-int runBake(CommandLine& line)
+/// Takes over what CLI11 cannot put into the options itself.
+Status completeOptions(CommandLine& line)
 {
-    if (line.output.empty()) return complain("-o PACK is missing: where shall the pack go? See --help", kBadInput);
-    // A bad target shows before the work, not after it.
-    if (Status status = checkPackTarget(line.output); !status) return complain(status.error().message, kBadInput);
-    if (!line.stats.empty())
-        if (Status status = checkFileTarget(line.stats); !status) return complain(status.error().message, kBadInput);
-
+    if (line.surfaces == "lod2")
+        line.bake.import.lod2 = true;
+    else
+        line.bake.surfaces = line.surfaces;
+    if (!line.bbox.empty()) {
+        if (!(line.bbox[0] < line.bbox[2] && line.bbox[1] < line.bbox[3]))
+            return Error{"--bbox WEST,SOUTH,EAST,NORTH: west must be below east, and south below north"};
+        line.bake.import.bbox = Box2{{line.bbox[0], line.bbox[1]}, {line.bbox[2], line.bbox[3]}};
+    }
     for (const std::string& text : line.attributes) {
         const size_t equals = text.find('=');
         if (equals == 0 || equals == std::string::npos)
-            return complain(concat("--set ", text, ": NAME=VALUE is needed; see --help"), kBadInput);
+            return Error{concat("--set ", text, ": NAME=VALUE is needed; see --help")};
         line.bake.attributes[text.substr(0, equals)] = attributeFromText(text.substr(equals + 1));
     }
     for (const LinkMethod method : {LinkMethod::Heliopolis, LinkMethod::Paper, LinkMethod::PaperLiteral})
         if (line.method == methodName(method)) line.bake.light.method = method;
-    ProgressLine progress;
+    line.bake.nodes.patch = line.patch == "bay" ? PatchMode::Bay : PatchMode::Piece;
+    return Nothing{};
+}
+
+int runExplain(const CommandLine& line)
+{
+    const Result<RuleSource> source = readRules(line.explain, line.bake.style);
+    if (!source) return complain(source.error().message, kBadInput);
+    std::fputs(explainRules(source->rules).c_str(), stdout);
+    return kOk;
+}
+
+/// The bake, with its progress; the error has been complained about.
+std::optional<BakeResult> bakeWithProgress(CommandLine& line, ProgressLine& progress)
+{
     line.bake.light.progress = [&](const char* step, double done) { progress.show(step, done); };
     Result<BakeResult> result = bake(line.bake);
-    if (!result) {
-        progress.clear();
-        return complain(result.error().message, kBadInput);
-    }
+    if (result) return std::move(*result);
+    progress.clear();
+    complain(result.error().message, kBadInput);
+    return {};
+}
+
+int runTreeOnly(CommandLine& line)
+{
+    if (!line.output.empty()) return complain("--tree-only writes no pack: leave out -o", kBadInput);
+    ProgressLine progress;
+    const std::optional<BakeResult> result = bakeWithProgress(line, progress);
+    if (!result) return kBadInput;
+    progress.clear();
+    const double peak = peakMemoryMiB();
+    if (!line.stats.empty())
+        if (Status written = writeTextAtomically(line.stats, statsJson(result->stats, peak)); !written)
+            return complain(written.error().message, kBadInput);
+    std::printf("%s: derived\n%s", result->content.index.source.c_str(), statsText(result->stats, peak).c_str());
+    return kOk;
+}
+
+int runBake(CommandLine& line)
+{
+    if (Status status = completeOptions(line); !status) return complain(status.error().message, kBadInput);
+    // A bad target shows before the work, not after it.
+    if (!line.stats.empty())
+        if (Status status = checkFileTarget(line.stats); !status) return complain(status.error().message, kBadInput);
+    if (line.bake.treeOnly) return runTreeOnly(line);
+    if (line.output.empty()) return complain("-o PACK is missing: where shall the pack go? See --help", kBadInput);
+    if (Status status = checkPackTarget(line.output); !status) return complain(status.error().message, kBadInput);
+    ProgressLine progress;
+    const std::optional<BakeResult> result = bakeWithProgress(line, progress);
+    if (!result) return kBadInput;
     progress.show("writing", 0.0);
     if (Status good = checkContent(result->content, line.output); !good) {
         progress.clear();
@@ -162,6 +236,7 @@ int runMain(int argc, char** argv)
         const Status status = info->parsed() ? printInfo(line.pack) : verifyPack(line.pack);
         return status ? kOk : complain(status.error().message, kBadInput);
     }
+    if (!line.explain.empty()) return runExplain(line);
     return exporting->parsed() ? runExport(line) : runBake(line);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <string>
@@ -15,10 +14,10 @@ enum ExitCode
     kInternal = 2  ///< or no device
 };
 
-/// Prints the one line that a problem gets, after the program's name, and gives the code back.
-inline int complain(std::string message, ExitCode code)
+/// Prints what is wrong after the program's name, and gives the code back: one line, or for a text with mistakes (rule
+/// files) a line each with what it points at.
+inline int complain(const std::string& message, ExitCode code)
 {
-    std::replace(message.begin(), message.end(), '\n', ' ');
     std::fprintf(stderr, "%s: %s\n", program_invocation_short_name, message.c_str());
     return code;
 }

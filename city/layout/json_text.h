@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "city/base/result.h"
+
+// JSON texts from outside, read without exceptions. Internal to city/layout.
+namespace helio {
+
+/// Parses one JSON value that fills `part`, a piece of `whole` (for line and byte in messages). Errors (one line):
+/// `name`, line, byte, what is wrong, `advice`; nesting beyond kMaxJsonDepth is one.
+Result<nlohmann::json> parseJson(std::string_view part, std::string_view whole, std::string_view name,
+                                 std::string_view advice);
+
+/// The member of an object; null if there is none or `object` is no object.
+const nlohmann::json* findMember(const nlohmann::json& object, const char* key);
+/// The same, null if it is no array.
+const nlohmann::json* findArray(const nlohmann::json& object, const char* key);
+/// The text of a member; empty if there is none or it is no text.
+std::string findText(const nlohmann::json& object, const char* key);
+
+} // namespace helio

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/pack/rule_source.h"
+
+#include "city/base/file.h"
+#include "city/base/hash.h"
+#include "city/grammar/program.h"
+#include "city/pack/embedded_files.h"
+
+namespace helio {
+namespace {
+
+const EmbeddedFile* shippedFile(const std::string& name)
+{
+    for (const EmbeddedFile& file : embeddedFiles())
+        if (file.name == name) return &file;
+    return nullptr;
+}
+
+Result<std::string> shippedText(const std::string& name)
+{
+    const EmbeddedFile* file = shippedFile(name);
+    if (file == nullptr) return Error{concat(name, ": no such rule file is shipped")};
+    return std::string(reinterpret_cast<const char*>(file->bytes.data()), file->bytes.size());
+}
+
+Result<std::string> fileText(const std::string& path)
+{
+    return readTextFile(path);
+}
+
+} // namespace
+
+Result<RuleSource> readRules(const std::filesystem::path& path, const std::string& style)
+{
+    std::error_code ignored;
+    const bool shipped = !std::filesystem::exists(path, ignored) && shippedFile(path.string()) != nullptr;
+    RuleOptions options;
+    options.style = style;
+    options.readImport = shipped ? shippedText : fileText;
+    const Result<std::string> text = options.readImport(path.string());
+    if (!text) return text.error();
+    Result<RuleSet> rules = parseRules(*text, path.string(), options);
+    if (!rules) return rules.error();
+    u64 hash = hashText(style);
+    for (const cga::SourceFile& file : rules->files()) hash = mixSeed(hash, hashText(file.text));
+    return RuleSource{std::move(*rules), path.filename().string(), hash};
+}
+
+} // namespace helio

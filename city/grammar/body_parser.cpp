@@ -72,7 +72,13 @@ void BodyParser::parseCall(std::vector<Statement>& statements)
         }
         need(")", "after the arguments");
     }
-    if (isSign("{")) statement.block = parseBlock(name.text == "split");
+    if (isSign("{") && name.text == "scatter") {
+        const Place open = take().place;
+        statement.body.push_back(parseBody());
+        if (!takeSign("}")) fail(open, concat("this '{' is never closed: expected '}', found ", found()));
+    } else if (isSign("{")) {
+        statement.block = parseBlock(name.text == "split");
+    }
     statements.push_back(std::move(statement));
 }
 

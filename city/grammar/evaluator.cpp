@@ -74,15 +74,15 @@ Value Evaluator::evaluate(const Expr& expr, const Env& env)
     case ExprKind::Number:
         return expr.number;
     case ExprKind::Text:
-        return expr.text;
+        return charged(expr.text, expr.place);
     case ExprKind::Bool:
         return expr.number != 0.0;
     case ExprKind::Parameter:
-        return env.parameters[expr.index];
+        return charged(env.parameters[expr.index], expr.place);
     case ExprKind::Global:
-        return evaluateGlobal(expr, env);
+        return charged(evaluateGlobal(expr, env), expr.place);
     case ExprKind::Builtin:
-        return callBuiltin(expr, env);
+        return charged(callBuiltin(expr, env), expr.place);
     case ExprKind::Shape:
         return evaluateShape(ShapeAttribute(expr.index), env);
     case ExprKind::Negate:
@@ -90,7 +90,7 @@ Value Evaluator::evaluate(const Expr& expr, const Env& env)
     case ExprKind::Not:
         return !truth(expr.args[0], env);
     case ExprKind::Binary:
-        return evaluateBinary(expr, env);
+        return charged(evaluateBinary(expr, env), expr.place);
     case ExprKind::Cases:
     case ExprKind::Percent:
         return evaluateChoice(expr, env);
@@ -98,6 +98,13 @@ Value Evaluator::evaluate(const Expr& expr, const Env& env)
         break;
     }
     HELIO_CHECK(false, "unresolved name ", expr.text);
+}
+
+/// Charges what copying and comparing a text costs.
+Value Evaluator::charged(Value value, Place place)
+{
+    if (const std::string* text = std::get_if<std::string>(&value)) trouble_.spend(place, text->size() / 64);
+    return value;
 }
 
 Value Evaluator::evaluateChoice(const Expr& expr, const Env& env)

@@ -46,6 +46,7 @@ private:
     Value evaluateBinary(const Expr& expr, const Env& env);
     Value evaluateShape(ShapeAttribute attribute, const Env& env) const;
     Value evaluateChoice(const Expr& expr, const Env& env);
+    Value charged(Value value, Place place);
     Value callBuiltin(const Expr& expr, const Env& env); ///< functions.cpp
     Value callMath(const Expr& expr, const Env& env);
     Value callText(const Expr& expr, const Env& env);      ///< text_functions.cpp

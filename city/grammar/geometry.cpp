@@ -94,6 +94,13 @@ size_t cornerCount(const Geometry& geometry)
     return count;
 }
 
+u64 planeWork(const Face& face)
+{
+    u64 corners = 0;
+    forEachRing(face.polygon, [&](const Ring3& ring) { corners += ring.size(); });
+    return 16 * corners + corners * corners / 2;
+}
+
 bool isConcave(const Geometry& geometry)
 {
     for (const Face& face : geometry.faces) {

@@ -45,6 +45,9 @@ double volume(const Geometry& geometry);
 std::pair<glm::dvec3, glm::dvec3> bounds(const Geometry& geometry);
 /// Corners of all rings of all faces.
 size_t cornerCount(const Geometry& geometry);
+/// Steps that an offset, setback or roof over a face is charged: they compare every corner (holes included) with every
+/// other.
+u64 planeWork(const Face& face);
 /// True if any face has a reflex corner or a hole.
 bool isConcave(const Geometry& geometry);
 /// True if every face has four corners (collinear ones not counted) at 90 degrees, within `toleranceDeg`.

@@ -32,14 +32,15 @@ struct BuildingShapes
 };
 
 /// Names of nodes that no rule names, numbered after Program::names.
-inline constexpr std::string_view kOperationNames[] = {"split",   "comp",        "push",
-                                                       "setback", "WallSurface", "RoofSurface"};
+inline constexpr std::string_view kOperationNames[] = {"split",   "comp",        "push",       "setback",
+                                                       "scatter", "WallSurface", "RoofSurface"};
 enum class OperationName : u32
 {
     Split,
     Component,
     Push,
-    Setback,     ///< setback, shapeL, innerRectangle, ..
+    Setback, ///< setback, shapeL, innerRectangle, ..
+    Scatter,
     WallSurface, ///< a given surface for which there is no rule
     RoofSurface
 };
@@ -154,6 +155,9 @@ private:
     SelectorContext selectorContext(const ShapeState& state, const std::optional<StreetSides>& streets) const;
     bool refuseAsset(const Statement& statement, const ShapeState& state);
 
+    // scatter_operation.cpp
+    void scatter(const Statement& statement, const ShapeState& state, Frame& frame);
+
     // roof_operations.cpp
     void roof(const Statement& statement, ShapeState& state, Frame& frame);
 
@@ -173,6 +177,8 @@ private:
 
     // leaf.cpp
     bool emitLeaf(const ShapeState& state, Frame& frame, Place place);
+    bool addSurfaces(const ShapeState& state, const Scope& scope, const Geometry& geometry, const Frame& frame,
+                     Place place);
     bool fillsTile(const ShapeState& state) const;
     bool onCoveredPart(const ShapeState& state) const;
     u32 surfaceOf(const Look& look);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMaxReflectance = 0.95; ///< no white paint reflects more; keeps the light's series short
 constexpr double kMinLeafArea = 1e-8;    ///< m2
+constexpr double kMinPart = 1e-4;        ///< m2: a free or covered part below 1 cm x 1 cm is not told apart
 constexpr double kFitTolerance = 0.01;   ///< m: how well an asset must fit its tile
 
 } // namespace
@@ -100,6 +101,44 @@ bool Interpreter::onCoveredPart(const ShapeState& state) const
     return occlusion_.covers(state.tile->scope.toWorld(0.5 * (low + high)), state.edge);
 }
 
+/// Gives a node its faces. Where a neighbour covers some of them or parts of them, the node gets two leaves below it:
+/// child 0 the free parts, child 1 the covered ones, so that the keys do not hang on how they are cut. False if there
+/// is nothing to show.
+bool Interpreter::addSurfaces(const ShapeState& state, const Scope& scope, const Geometry& geometry, const Frame& frame,
+                              Place place)
+{
+    Geometry open, hidden;
+    // What a rule built on a wall, a sill say, stands out of it; the walls of a solid made of the lot are walls.
+    if (occlusion_.any() && !(geometry.closed && state.edge != kNoIndex)) {
+        trouble_.spend(place, cornerCount(geometry) * occlusion_.wallCount());
+        for (const Face& face : geometry.faces)
+            occlusion_.divide(scope, face, state.edge != kNoIndex ? state.edge : face.edge, open, hidden);
+    }
+    const bool covered = !hidden.faces.empty() && area(open) < kMinPart;
+    if (hidden.faces.empty() || covered || area(hidden) < kMinPart) {
+        Shape& shape = result_.shapes[frame.node];
+        addPolygons(scope, geometry, shape);
+        if (shape.polygonCount == 0) return false;
+        shape.surface = surfaceOf(state.look);
+        shape.covered = covered;
+        return true;
+    }
+    if (result_.shapes.size() + 2 > kMaxShapes)
+        trouble_.fail(place, concat("the building has more than ", kMaxShapes, " shapes: use larger sizes"));
+    for (u32 k = 0; k < 2; ++k) {
+        Shape part;
+        part.parent = frame.node;
+        part.name = result_.shapes[frame.node].name;
+        part.op = ShapeOp::Split;
+        part.child = k;
+        part.covered = k == 1;
+        part.surface = surfaceOf(state.look);
+        addPolygons(scope, k == 0 ? open : hidden, part);
+        result_.shapes.push_back(part);
+    }
+    return true;
+}
+
 /// Turns a frame's node into a leaf. False if nothing is left to show.
 bool Interpreter::emitLeaf(const ShapeState& state, Frame& frame, Place place)
 {
@@ -110,15 +149,9 @@ bool Interpreter::emitLeaf(const ShapeState& state, Frame& frame, Place place)
     if (!state.asset || (dropped && fills)) {
         const Scope& scope = state.asset ? state.tile->scope : state.scope;
         const Geometry& geometry = state.asset ? *state.tile->geometry : *state.geometry;
-        addPolygons(scope, geometry, shape);
-        if (shape.polygonCount == 0) return false;
-        shape.surface = surfaceOf(state.look);
+        if (!addSurfaces(state, scope, geometry, frame, place)) return false;
         if (state.tile && (state.intact || (state.asset && state.tile->intact)))
             frame.covered.planar = state.tile->area;
-        if (occlusion_.any() && state.edge != kNoIndex) {
-            trouble_.spend(place, cornerCount(geometry) * occlusion_.wallCount());
-            shape.covered = occlusion_.inside(scope, geometry, state.edge);
-        }
         return true;
     }
     if (state.tile && state.tile->intact && !fills) {

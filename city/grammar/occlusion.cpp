@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "city/grammar/clip.h"
 
 namespace helio::cga {
 
@@ -117,6 +120,34 @@ bool Occlusion::project(const Wall& wall, const Scope& scope, const Face& face, 
     return near;
 }
 
+bool Occlusion::meets(const Polygon2& flat, const Strip& strip)
+{
+    Box box;
+    const Ring2 part = clipBox(flat.outer, strip.begin, strip.end, strip.height);
+    for (const glm::dvec2& p : part) box.add(p);
+    double contact = part.size() < 3 ? 0.0 : std::abs(signedArea(part));
+    for (const Ring2& hole : flat.holes) {
+        const Ring2 open = clipBox(hole, strip.begin, strip.end, strip.height);
+        if (open.size() >= 3) contact -= std::abs(signedArea(open));
+    }
+    return contact > kTolerance * kTolerance && box.high.x - box.low.x > kTolerance &&
+           box.high.y - box.low.y > kTolerance;
+}
+
+bool Occlusion::within(const Polygon2& flat, const Wall& wall)
+{
+    double open = area(flat);
+    for (const Strip& strip : wall.wide) {
+        const auto part = [&](const Ring2& ring) {
+            const Ring2 clipped = clipBox(ring, strip.begin, strip.end, strip.height);
+            return clipped.size() < 3 ? 0.0 : std::abs(signedArea(clipped));
+        };
+        open -= part(flat.outer);
+        for (const Ring2& hole : flat.holes) open += part(hole);
+    }
+    return open <= 1e-9 * (1.0 + area(flat));
+}
+
 bool Occlusion::touches(const Scope& scope, const Geometry& geometry, u32 edge) const
 {
     Polygon2 flat;
@@ -124,19 +155,8 @@ bool Occlusion::touches(const Scope& scope, const Geometry& geometry, u32 edge) 
         if (edge != kNoIndex && wall.edge != edge) continue;
         for (const Face& face : geometry.faces) {
             if (project(wall, scope, face, flat)) {
-                for (const Strip& strip : wall.strips) {
-                    Box box;
-                    const Ring2 part = clipBox(flat.outer, strip.begin, strip.end, strip.height);
-                    for (const glm::dvec2& p : part) box.add(p);
-                    double contact = part.size() < 3 ? 0.0 : std::abs(signedArea(part));
-                    for (const Ring2& hole : flat.holes) {
-                        const Ring2 open = clipBox(hole, strip.begin, strip.end, strip.height);
-                        if (open.size() >= 3) contact -= std::abs(signedArea(open));
-                    }
-                    if (contact > kTolerance * kTolerance && box.high.x - box.low.x > kTolerance &&
-                        box.high.y - box.low.y > kTolerance)
-                        return true;
-                }
+                for (const Strip& strip : wall.strips)
+                    if (meets(flat, strip)) return true;
                 continue;
             }
             if (geometry.closed || std::abs((scope.axes * unitNormal(face.polygon)).y) < 0.999) continue;
@@ -171,20 +191,53 @@ bool Occlusion::inside(const Scope& scope, const Geometry& geometry, u32 edge) c
         bool found = false;
         for (const Wall& wall : walls_) {
             if ((edge != kNoIndex && wall.edge != edge) || !project(wall, scope, face, flat)) continue;
-            double open = area(flat);
-            for (const Strip& strip : wall.wide) {
-                const auto part = [&](const Ring2& ring) {
-                    const Ring2 clipped = clipBox(ring, strip.begin, strip.end, strip.height);
-                    return clipped.size() < 3 ? 0.0 : std::abs(signedArea(clipped));
-                };
-                open -= part(flat.outer);
-                for (const Ring2& hole : flat.holes) open += part(hole);
-            }
-            found = found || open <= 1e-9 * (1.0 + area(flat));
+            found = found || within(flat, wall);
         }
         if (!found) return false;
     }
     return true;
+}
+
+void Occlusion::divide(const Scope& scope, const Face& face, u32 edge, Geometry& open, Geometry& hidden) const
+{
+    Polygon2 flat;
+    const auto stands = [&](const Wall& wall) { return wall.edge == edge && project(wall, scope, face, flat); };
+    const auto wall = std::find_if(walls_.begin(), walls_.end(), stands);
+    if (wall == walls_.end()) return open.faces.push_back(face);
+    if (within(flat, *wall)) return hidden.faces.push_back(face);
+    Box box;
+    for (const glm::dvec2& p : flat.outer) box.add(p);
+    const glm::dmat3 toScope = glm::transpose(scope.axes);
+    const glm::dvec3 along = toScope * wall->along, up = toScope * glm::dvec3(0, 1, 0);
+    const double left = glm::dot(wall->corner - scope.origin, wall->along), foot = wall->corner.y - scope.origin.y;
+    const auto append = [](Geometry& to, const Geometry& from) {
+        to.faces.insert(to.faces.end(), from.faces.begin(), from.faces.end());
+    };
+    Geometry rest;
+    rest.faces.push_back(face);
+    double done = box.low.x; // everything to the left of it is dealt with
+    for (const Strip& strip : wall->strips) {
+        if (!meets(flat, strip)) continue;
+        // Borders closer than the tolerance to each other or to the face's own would only make slivers.
+        if (strip.begin > done + kTolerance) {
+            append(open, clipPlane(rest, -along, -(left + strip.begin)));
+            rest = clipPlane(rest, along, left + strip.begin);
+        }
+        Geometry slab = rest;
+        done = strip.end;
+        if (strip.end < box.high.x - kTolerance) {
+            slab = clipPlane(rest, -along, -(left + strip.end));
+            rest = clipPlane(rest, along, left + strip.end);
+        } else {
+            rest = {};
+        }
+        if (strip.height < box.high.y - kTolerance) {
+            append(open, clipPlane(slab, up, foot + strip.height));
+            slab = clipPlane(slab, -up, -(foot + strip.height));
+        }
+        append(hidden, slab);
+    }
+    append(open, rest);
 }
 
 bool Occlusion::covers(const glm::dvec3& point, u32 edge) const

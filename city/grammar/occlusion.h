@@ -30,6 +30,10 @@ public:
     bool inside(const Scope& scope, const Geometry& geometry, u32 edge) const;
     /// True if the point lies on a covered part of the edge's wall, up to 5 cm before or behind it.
     bool covers(const glm::dvec3& point, u32 edge) const;
+    /// Appends the parts of an open face that stands on an edge of the footprint to `open` and to `hidden`: cut upright
+    /// and level, exactly at the borders of the covered parts; holes and reflex corners too. Contacts and gaps of up to
+    /// 1 cm make no cut; a face elsewhere is open.
+    void divide(const Scope& scope, const Face& face, u32 edge, Geometry& open, Geometry& hidden) const;
     /// Walls with a covered part: what one query costs per corner.
     size_t wallCount() const { return walls_.size(); }
 
@@ -47,6 +51,10 @@ private:
         std::vector<Strip> wide;                      // the same, grown by the tolerance
     };
 
+    /// True if the polygon and the strip have more than 1 cm x 1 cm in common.
+    static bool meets(const Polygon2& flat, const Strip& strip);
+    /// True if all of the polygon lies on the strips grown by the tolerance.
+    static bool within(const Polygon2& flat, const Wall& wall);
     static std::vector<Strip> skyline(const std::vector<CoveredSpan>& spans, double margin);
     /// The face in the plane of the wall (x along it, y up), if it lies there.
     static bool project(const Wall& wall, const Scope& scope, const Face& face, Polygon2& flat);

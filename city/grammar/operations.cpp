@@ -117,6 +117,8 @@ void Interpreter::runOperation(const Statement& statement, ShapeState& state, Fr
         return primitive(statement, state, frame);
     case Operation::Insert:
         return insertAsset(statement, state, frame);
+    case Operation::Scatter:
+        return scatter(statement, state, frame);
     case Operation::Split:
         return split(statement, state, frame);
     case Operation::Component:
@@ -125,6 +127,7 @@ void Interpreter::runOperation(const Statement& statement, ShapeState& state, Fr
     case Operation::RoofHip:
     case Operation::RoofPyramid:
     case Operation::RoofShed:
+    case Operation::Taper:
         return roof(statement, state, frame);
     case Operation::Offset:
         return offsetFaces(statement, state, frame);

@@ -139,6 +139,18 @@ enum class OffsetKeep : u32
     Inside,
     Border
 };
+/// scatter: a ScatterDomain in the lowest bits, plus kGaussian, plus kFirstMean times a ScatterMean.
+inline constexpr u32 kScatterDomain = 3, kGaussian = 4, kFirstMean = 8;
+enum class ScatterMean : u32
+{
+    Center,
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    Bottom
+};
 inline constexpr u32 kByHeight = 1;  ///< roofs: the value is a height, not an angle
 inline constexpr u32 kAlongEdge = 1; ///< innerRectangle: along any long edge, not only along the scope's axes
 enum class ExtrudeMode : u32
@@ -181,7 +193,7 @@ struct Statement
     Place place;
     std::vector<Size> args; ///< without the bare words, which are in `mode`
     u32 mode = 0;           ///< what the bare word says: an axis, ExtrudeMode, SetTarget, ...
-    std::vector<Body> body; ///< Push: one
+    std::vector<Body> body; ///< Push, scatter: one
     std::shared_ptr<Block> block;
 };
 

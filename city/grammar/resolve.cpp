@@ -164,14 +164,17 @@ private:
         const std::string name = program_.names[statement.name];
         const u32 argCount = u32(statement.args.size());
         if (const auto info = findOperation(name)) return resolveOperation(statement, name, *info);
+        if (const std::string_view advice = refusedFunction(name); !advice.empty() && !isRule(name, argCount))
+            return fail(statement.place, concat("the function '", name, "' is not supported: ", advice));
         for (Size& arg : statement.args) {
             resolve(arg.value);
             if (arg.kind != SizeKind::Absolute)
-                fail(arg.value.place, "' and ~ belong to sizes: in arguments of s, t and split");
+                fail(arg.value.place, concat(kWhereSizes, ": a rule takes plain values"));
         }
         if (statement.block)
-            return fail(statement.place,
-                        concat("unknown operation '", name, "': only split and comp take a block { .. }"));
+            return fail(statement.place, concat("unknown operation '", name,
+                                                "': a block { .. } belongs to split, comp, setback, "
+                                                "setbackPerEdge, innerRectangle, shapeL and the like, not to a rule"));
         statement.kind = StatementKind::Rule;
         if (const auto rule = program_.ruleIndex.find({prefix_ + name, argCount}); rule != program_.ruleIndex.end()) {
             statement.rule = rule->second;
@@ -181,9 +184,12 @@ private:
         if (broken_.has(prefix_ + name)) return;
         if (const auto count = otherCount(program_.ruleIndex, prefix_ + name))
             return fail(statement.place, concat("rule '", name, "' takes ", *count, " arguments, not ", argCount));
+        if (isFunction(name, argCount))
+            return fail(statement.place,
+                        concat("'", name, "' is a function: use it in a value, as in s(", name, "(..), 1, 1)"));
         if (argCount > 0)
             return fail(statement.place,
-                        concat("unknown operation or rule '", name, "': README.md in city/grammar lists what is read"));
+                        concat("unknown operation or rule '", name, "': city/README.md lists what is read"));
         if (name.back() != '.') {
             warnOnce(statement.place, name,
                      concat("rule '", name, "' is not declared: its shapes stay as they are (write '", name,
@@ -191,6 +197,19 @@ private:
             return;
         }
         statement.name = terminal(name.substr(0, name.size() - 1));
+    }
+
+    bool isRule(const std::string& name, u32 argCount) const
+    {
+        return program_.ruleIndex.count({prefix_ + name, argCount}) > 0;
+    }
+
+    /// A function of the language that can take so many arguments, or one of the file's own.
+    bool isFunction(const std::string& name, u32 argCount) const
+    {
+        if (const auto info = findFunction(name)) return argCount > 0 || info->minArgs == 0;
+        const auto own = program_.globalIndex.find({prefix_ + name, argCount});
+        return own != program_.globalIndex.end() && program_.globals[own->second].kind == GlobalKind::Function;
     }
 
     u32 terminal(const std::string& name)
@@ -207,9 +226,10 @@ private:
         statement.op = info.op;
         if (info.op == Operation::Ignored) {
             warnOnce(statement.place, name == "label" ? "label" : "texture",
-                     name == "label" ? concat("'label' is read and ignored: touches(inter) asks about all neighbours")
-                                     : concat("'", name, "' and other texture operations are read and ignored: surfaces ",
-                                              "have one colour"));
+                     name == "label"
+                         ? concat("'label' is read and ignored: touches(inter) asks about all neighbours")
+                         : concat("'", name, "' and other texture operations are read and ignored: surfaces ",
+                                  "have one colour"));
             statement.args.clear();
             return;
         }
@@ -217,7 +237,7 @@ private:
         if (argCount < info.minArgs || argCount > info.maxArgs)
             return fail(statement.place, concat("'", name, "' takes ", range(info.minArgs, info.maxArgs),
                                                 " arguments, not ", argCount, ": write ", info.usage));
-        if (info.hasBlock != (statement.block != nullptr))
+        if (info.hasBlock != (statement.block != nullptr || !statement.body.empty()))
             return fail(statement.place,
                         concat(info.hasBlock ? "a block { .. } is missing after '" : "no block { .. } belongs after '",
                                name, "': write ", info.usage));
@@ -230,15 +250,15 @@ private:
         if (!words.ignored.empty())
             warnOnce(statement.place, words.ignored,
                      concat(words.ignored, " is read and ignored: surfaces have a colour, a name and an emission"));
-        const bool sizes = info.op == Operation::Resize || info.op == Operation::Translate;
         for (Size& arg : statement.args) {
             resolve(arg.value);
+            const bool sizes = info.op == Operation::Resize || info.op == Operation::Translate ||
+                               (info.op == Operation::Scatter && &arg != &statement.args[0]);
             if (arg.kind == SizeKind::Floating || (arg.kind == SizeKind::Relative && !sizes))
-                fail(arg.value.place,
-                     concat(arg.kind == SizeKind::Floating ? "'~' belongs to sizes of split"
-                                                           : "' (relative to the scope) belongs to s, t and split"));
+                fail(arg.value.place, concat(kWhereSizes, ", not to '", name, "'"));
         }
         if (statement.block) resolveBlock(*statement.block, info.op);
+        for (Body& body : statement.body) resolve(body);
     }
 
     void resolveBlock(Block& block, Operation op)
@@ -254,6 +274,9 @@ private:
             resolve(element.body);
         }
     }
+
+    static constexpr std::string_view kWhereSizes =
+        "' (relative to the scope) belongs to sizes of s, t, scatter and split, ~ to those of split";
 
     Program& program_;
     const BrokenNames& broken_;

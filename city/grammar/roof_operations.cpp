@@ -50,10 +50,54 @@ double slopeOf(const Roof& roof)
     return 0.0;
 }
 
+/// A pyramid of this height above the centroid; downwards if `height` < 0. Where not all of the base sees the centroid,
+/// and above holes, what pyramidRoof makes of it.
+Roof taperRoof(const Polygon2& base, double height)
+{
+    const Ring2& ring = base.outer;
+    glm::dvec2 sum(0.0);
+    const double whole = signedArea(ring);
+    for (size_t i = 0; i < ring.size(); ++i) {
+        const glm::dvec2 a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
+        sum += (a + b) * cross(a, b) / 6.0;
+    }
+    const glm::dvec2 apex = ring[0] + sum / whole;
+    bool seen = base.holes.empty();
+    for (size_t i = 0; i < ring.size() && seen; ++i) {
+        const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+        seen = cross(a, b, apex) > 0.01 * glm::distance(a, b);
+    }
+    Roof roof;
+    if (seen) {
+        RoofFace bottom;
+        bottom.part = RoofPart::Bottom;
+        for (u32 i = 0; i < ring.size(); ++i) {
+            const glm::dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+            roof.faces.push_back(
+                {{{{a.x, a.y, 0.0}, {b.x, b.y, 0.0}, {apex.x, apex.y, std::abs(height)}}, {}}, RoofPart::Slope, i});
+            bottom.polygon.outer.insert(bottom.polygon.outer.begin(), {a.x, a.y, 0.0});
+        }
+        roof.faces.push_back(std::move(bottom));
+    } else {
+        roof = pyramidRoof(base, {true, std::abs(height)});
+    }
+    if (height > 0.0) return roof;
+    const auto flip = [](Ring3& corners) {
+        for (glm::dvec3& p : corners) p.z = -p.z;
+        std::reverse(corners.begin(), corners.end());
+    };
+    for (RoofFace& face : roof.faces) {
+        flip(face.polygon.outer);
+        for (Ring3& hole : face.polygon.holes) flip(hole);
+    }
+    return roof;
+}
+
 /// The language measures overhangs down the slope, the geometry level.
 Roof buildRoof(const RoofRequest& request, const Polygon2& base)
 {
     RoofPitch pitch = request.pitch;
+    if (request.op == Operation::Taper) return taperRoof(base, pitch.value);
     if (request.overhangX == 0.0 && request.overhangY == 0.0) return buildRoof(request, base, pitch, 0.0, 0.0);
     if (pitch.byHeight) {
         // The slope is that of the roof without overhangs.
@@ -75,7 +119,8 @@ void Interpreter::roof(const Statement& statement, ShapeState& state, Frame& fra
     request.op = statement.op;
     const size_t argCount = statement.args.size();
     const auto number = [&](size_t k) { return evaluator_.number(statement.args[k].value, env(state, frame)); };
-    request.pitch = {statement.mode == kByHeight, number(0)};
+    const bool taper = statement.op == Operation::Taper;
+    request.pitch = {taper || statement.mode == kByHeight, number(0)};
     if (statement.op == Operation::RoofShed) {
         if (argCount > 1) request.index = i64(std::clamp(number(1), -1e6, 1e6));
     } else {
@@ -91,11 +136,11 @@ void Interpreter::roof(const Statement& statement, ShapeState& state, Frame& fra
         request.overhangX = std::max(0.0, request.overhangX);
         request.overhangY = std::max(0.0, request.overhangY);
     }
-    const double value = request.pitch.value;
+    const double value = taper ? std::abs(request.pitch.value) : request.pitch.value;
     if (!(value > 0.0) || (!request.pitch.byHeight && !(value < 90.0)))
         return trouble_.warn(statement.place,
                              request.pitch.byHeight
-                                 ? "a roof without height leaves the shape flat"
+                                 ? "a roof or taper without height leaves the shape flat"
                                  : "a roof needs an angle between 0 and 90 degrees: the shape stays flat");
     if (request.even && statement.op == Operation::RoofHip)
         trouble_.warn(statement.place, "an even hip would have faces that are not planar: its ridges stay as they are");
@@ -110,11 +155,11 @@ void Interpreter::roof(const Statement& statement, ShapeState& state, Frame& fra
         const auto plane = FacePlane::of(face);
         if (!plane) continue;
         const size_t corners = face.polygon.outer.size();
-        trouble_.spend(statement.place, 16 * corners);
+        trouble_.spend(statement.place, planeWork(face));
         const Roof built = buildRoof(request, plane->flat(face.polygon));
         if (built.faces.empty()) continue;
         if (first == glm::dvec3(0.0)) first = plane->normal();
-        ++result_.roofs.roofs;
+        if (!taper) ++result_.roofs.roofs;
         if (built.fallback != RoofFallback::None) {
             ++(built.fallback == RoofFallback::Flat ? result_.roofs.flat : result_.roofs.parts);
             if (result_.notes.size() < kMaxNotes)

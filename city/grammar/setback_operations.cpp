@@ -14,6 +14,15 @@ namespace helio::cga {
 
 namespace {
 
+/// True for what rounding leaves between a polygon and its offset where both should meet: thinner than a millimetre.
+bool isSlit(const Polygon2& polygon)
+{
+    double around = 0.0;
+    for (size_t i = 0, n = polygon.outer.size(); i < n; ++i)
+        around += glm::distance(polygon.outer[i], polygon.outer[(i + 1) % n]);
+    return area(polygon) < 0.5e-3 * around;
+}
+
 /// Direction of the first edge that is not tiny; a face's own if there is none.
 glm::dvec3 firstDirection(const Polygon3& polygon, const glm::dvec3& fallback)
 {
@@ -116,7 +125,7 @@ void Interpreter::setback(const Statement& statement, const ShapeState& state, F
         const Face face = numberedFace(original, state.footprint);
         const auto plane = FacePlane::of(face);
         if (!plane) continue;
-        trouble_.spend(statement.place, 16 * face.polygon.outer.size());
+        trouble_.spend(statement.place, planeWork(face));
         Geometry alone;
         alone.faces.push_back(face);
         const std::vector<MeshEdge> ring = meshEdges(alone);
@@ -172,7 +181,7 @@ void Interpreter::wings(const Statement& statement, const ShapeState& state, Fra
         const Face face = numberedFace(original, state.footprint);
         const auto plane = FacePlane::of(face);
         if (!plane) continue;
-        trouble_.spend(statement.place, 16 * face.polygon.outer.size());
+        trouble_.spend(statement.place, planeWork(face));
         Geometry alone;
         alone.faces.push_back(face);
         const std::vector<MeshEdge> ring = meshEdges(alone);
@@ -215,7 +224,8 @@ void Interpreter::innerRectangle(const Statement& statement, const ShapeState& s
         const Face face = numberedFace(original, state.footprint);
         const auto plane = FacePlane::of(face);
         if (!plane) continue;
-        trouble_.spend(statement.place, 64 * face.polygon.outer.size());
+        // Every edge is tried as a side.
+        trouble_.spend(statement.place, planeWork(face) * (1 + face.polygon.outer.size() / 64));
         const Polygon2 flat = plane->flat(face.polygon);
         const auto found = largestRectangle(flat, {1.0, 0.0}, statement.mode == kAlongEdge);
         if (!found) {
@@ -238,7 +248,7 @@ void Interpreter::innerRect(const Statement& statement, ShapeState& state)
         const Face face = numberedFace(original, state.footprint);
         const auto plane = FacePlane::of(face);
         if (!plane) continue;
-        trouble_.spend(statement.place, 64 * face.polygon.outer.size());
+        trouble_.spend(statement.place, 4 * planeWork(face));
         if (const auto found = largestRectangle(plane->flat(face.polygon), {1.0, 0.0}, false)) {
             const Polygon2 rectangle = rectangleOf(*found);
             addPieces(result.faces, *plane, face, std::span(&rectangle, 1));
@@ -262,7 +272,7 @@ void Interpreter::offsetFaces(const Statement& statement, ShapeState& state, Fra
         const Face face = numberedFace(original, state.footprint);
         const auto plane = FacePlane::of(face);
         if (!plane) continue;
-        trouble_.spend(statement.place, 16 * face.polygon.outer.size());
+        trouble_.spend(statement.place, planeWork(face));
         const Polygon2 flat = plane->flat(face.polygon);
         const std::vector<Polygon2> moved = offsetPolygon(flat, distance);
         if (keep != OffsetKeep::Border) {
@@ -281,6 +291,7 @@ void Interpreter::offsetFaces(const Statement& statement, ShapeState& state, Fra
             }
         else
             border = without(flat, moved);
+        std::erase_if(border, isSlit);
         addPieces(result.faces, *plane, face, border);
     }
     if (result.faces.empty()) trouble_.warn(statement.place, "nothing is left after an offset: the shape is too small");

@@ -16,33 +16,20 @@ namespace helio::cga {
 namespace {
 
 constexpr double kMinPiece = 1e-12; ///< m2: smaller pieces are rounding
+constexpr double kMinSize = 1e-9;   ///< m: smaller sizes are 0
 
 /// What comp.sel reads.
 std::string_view selectorName(Selector selector)
 {
-    static constexpr std::string_view kNames[] = {"front", "right",    "back",       "left",   "top",    "bottom",
-                                                  "side",  "vertical", "horizontal", "aslant", "nutant", "all"};
-    if (u32(selector) < std::size(kNames)) return kNames[u32(selector)];
-    switch (selector) {
-    case Selector::Border:
-        return "border";
-    case Selector::Inside:
-        return "inside";
-    case Selector::Ridge:
-        return "ridge";
-    case Selector::Hip:
-        return "hip";
-    case Selector::Valley:
-        return "valley";
-    case Selector::Eave:
-        return "eave";
-    case Selector::Shape:
-        return "shape";
-    case Selector::Remainder:
-        return "remainder";
-    default:
-        return "other";
-    }
+    static constexpr std::string_view kNames[] = {
+        "front",       "right",       "back",        "left",          "top",         "bottom",       "side",
+        "vertical",    "horizontal",  "aslant",      "nutant",        "all",         "object.front", "object.right",
+        "object.back", "object.left", "object.top",  "object.bottom", "object.side", "world.south",  "world.east",
+        "world.north", "world.west",  "world.up",    "world.down",    "world.side",  "street.front", "street.right",
+        "street.back", "street.left", "street.side", "border",        "inside",      "ridge",        "hip",
+        "valley",      "eave",        "shape",       "remainder",     "other"};
+    static_assert(std::size(kNames) == size_t(Selector::Index) + 1);
+    return kNames[size_t(selector)];
 }
 
 /// The trim planes of a face, from the coordinates of the scope to the frame of the building.
@@ -86,6 +73,9 @@ void Interpreter::split(const Statement& statement, const ShapeState& state, Fra
             } else {
                 item.kind = element.size.kind;
                 item.value = evaluator_.number(element.size.value, env(state, frame));
+                if (item.value < -kMinSize)
+                    trouble_.warnOnce(element.place, "this size of a split is negative and counts as 0",
+                                      concat(" (", item.value, ")"));
                 item.element = u32(elements.size());
                 elements.push_back(&element);
             }
@@ -107,6 +97,10 @@ void Interpreter::split(const Statement& statement, const ShapeState& state, Fra
     if (state.footprint)
         for (Face& face : whole.faces) face = numberedFace(face, true); // the parts' walls stay known
     const size_t corners = cornerCount(whole);
+    if (parts->empty() && !whole.faces.empty())
+        trouble_.warn(statement.place, state.scope.size[axis] > kMinSize
+                                           ? "this split makes no part: all its sizes are 0"
+                                           : "this split makes no part: its shape has no extent along the axis");
     for (size_t k = 0; k < parts->size() && !trouble_.failed(); ++k) {
         const SplitPart& part = (*parts)[k];
         trouble_.spend(statement.place, corners);

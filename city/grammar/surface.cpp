@@ -82,8 +82,11 @@ void Interpreter::set(const Statement& statement, ShapeState& state, Frame& fram
     case SetTarget::FirstGlobal:
         break;
     }
-    auto attributes = state.attributes ? std::make_shared<std::map<u32, Value>>(*state.attributes)
-                                       : std::make_shared<std::map<u32, Value>>();
+    auto attributes = std::make_shared<std::map<u32, Value>>();
+    if (state.attributes) {
+        trouble_.spend(statement.place, state.attributes->size()); // shapes share the map, so it is copied
+        *attributes = *state.attributes;
+    }
     (*attributes)[statement.mode - u32(SetTarget::FirstGlobal)] = evaluator_.evaluate(expr, env(state, frame));
     state.attributes = std::move(attributes);
 }

@@ -7,6 +7,16 @@
 
 namespace helio::cga {
 
+namespace {
+
+/// Steps that looking for a text in another is charged: at worst every place is compared over the whole length.
+u64 searchWork(const std::string& all, const std::string& part)
+{
+    return u64(all.size()) * (1 + part.size()) / 64;
+}
+
+} // namespace
+
 Value Evaluator::callText(const Expr& expr, const Env& env)
 {
     switch (Function(expr.index)) {
@@ -37,6 +47,8 @@ Value Evaluator::callText(const Expr& expr, const Env& env)
     case Function::Replace: { // replace(text, part, by): every occurrence, from left to right
         const std::string all = text(expr.args[0], env), part = text(expr.args[1], env), by = text(expr.args[2], env);
         if (part.empty()) return all;
+        trouble_.spend(expr.place, searchWork(all, part));
+        if (trouble_.failed()) return all;
         std::string result;
         size_t from = 0;
         for (size_t at = all.find(part); at != std::string::npos; at = all.find(part, from)) {
@@ -55,13 +67,16 @@ Value Evaluator::callText(const Expr& expr, const Env& env)
     case Function::Count: {
         const std::string all = text(expr.args[0], env), part = text(expr.args[1], env);
         double count = 0.0;
-        if (part.empty()) return count;
+        trouble_.spend(expr.place, searchWork(all, part));
+        if (part.empty() || trouble_.failed()) return count;
         for (size_t at = all.find(part); at != std::string::npos; at = all.find(part, at + part.size())) ++count;
         return count;
     }
     case Function::Find: { // find(text, part [, which]): place of the which-th occurrence (from 0), -1 if there is none
         const std::string all = text(expr.args[0], env), part = text(expr.args[1], env);
         double which = expr.args.size() > 2 ? number(expr.args[2], env) : 0.0;
+        trouble_.spend(expr.place, searchWork(all, part));
+        if (trouble_.failed()) return -1.0;
         size_t at = all.find(part);
         for (; at != std::string::npos && which >= 1.0; --which) at = all.find(part, at + 1);
         return at == std::string::npos ? -1.0 : double(at);

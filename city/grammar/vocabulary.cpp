@@ -65,6 +65,10 @@ constexpr Entry<OperationInfo> kOperations[] = {
     {"roofShed", {Operation::RoofShed, 1, 3, kFirst, false, "roofShed(angle, index) or roofShed(byHeight, height, index)"}},
     {"rotate", {Operation::RotateIn, 5, 5, 3, false, "rotate(rel, world, x, y, z): abs or rel; scope, pivot, object or world"}},
     {"rotateScope", {Operation::RotateScope, 3, 3, 0, false, "rotateScope(x, y, z)"}},
+    {"scatter",
+     {Operation::Scatter, 3, 5, 13, true,
+      "scatter(surface, 20, uniform) { Tree } or scatter(surface, 20, gaussian, center, 2) { Tree }: surface, volume or "
+      "scope; center, front, back, left, right, top or bottom"}},
     {"set", {Operation::Set, 2, 2, kFirst, false, "set(material.name, \"limestone\")"}},
     {"setback", {Operation::Setback, 1, 1, 0, true, "setback(3) { street.front : Garden | remainder : House }"}},
     {"setbackPerEdge",
@@ -79,6 +83,7 @@ constexpr Entry<OperationInfo> kOperations[] = {
       "shapeU(frontWidth, rightWidth, leftWidth) { shape : House | remainder : Court }"}},
     {"split", {Operation::Split, 1, 2, 3, true, "split(x) { 1 : A | ~2 : B }"}},
     {"t", {Operation::Translate, 3, 3, 0, false, "t(x, y, z)"}},
+    {"taper", {Operation::Taper, 1, 1, 0, false, "taper(height)"}},
     {"trim", {Operation::Trim, 0, 0, 0, false, "trim()"}},
     {"translate",
      {Operation::TranslateIn, 5, 5, 3, false,
@@ -104,8 +109,6 @@ constexpr std::string_view kNoMesh = "there is no mesh algebra: build the shape 
 constexpr Entry<std::string_view> kRefusedOperations[] = {
     {"roofRidge", kFlatRoof},
     {"envelope", kShapes},
-    {"taper", kShapes},
-    {"scatter", kShapes},
     {"setbackToArea", "use setback with a distance"},
     {"splitArea", "use split(x) with sizes"},
     {"splitAndSetbackPerimeter", "use setback(3) { street.front : .. | remainder : .. } and split(x)"},

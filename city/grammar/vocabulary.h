@@ -43,6 +43,7 @@ enum class Operation : u8
     Rotate,
     RotateIn, ///< rotate(mode, system, x, y, z)
     RotateScope,
+    Scatter,
     Set,
     Setback,
     SetbackPerEdge,
@@ -51,6 +52,7 @@ enum class Operation : u8
     ShapeO,
     ShapeU,
     Split,
+    Taper,
     Translate,
     Trim,
     TranslateIn, ///< translate(mode, system, x, y, z)
@@ -62,7 +64,7 @@ struct OperationInfo
     Operation op;
     u32 minArgs, maxArgs;
     u32 keywordArgs; ///< bit k: argument k may be a bare word
-    bool hasBlock;
+    bool hasBlock; ///< a block of selectors or sizes; scatter has a body
     std::string_view usage; ///< for messages
 };
 

@@ -143,6 +143,20 @@ bool takeSetTarget(Statement& statement, const Program& program, std::string& ig
     return true;
 }
 
+/// `surface, n, gaussian, left, 2`; the numbers stay in the arguments.
+bool takeScatter(Statement& statement)
+{
+    static constexpr std::string_view kDomains[] = {"surface", "volume", "scope"}, kKinds[] = {"uniform", "gaussian"},
+                                      kMeans[] = {"center", "front", "back", "left", "right", "top", "bottom"};
+    const auto domain = indexIn(kDomains, takeWord(statement)), kind = indexIn(kKinds, takeWord(statement, 1));
+    if (!domain || !kind) return false;
+    statement.mode = *domain + *kind * kGaussian;
+    if (statement.args.size() < 2) return true;
+    const auto mean = indexIn(kMeans, takeWord(statement, 1));
+    statement.mode += mean.value_or(0) * kFirstMean;
+    return mean && *kind == 1;
+}
+
 /// Turns the bare words of an operation into Statement::mode; false if a word is unknown.
 bool takeWords(Statement& statement, const Program& program, std::string& ignored)
 {
@@ -224,6 +238,8 @@ bool takeWords(Statement& statement, const Program& program, std::string& ignore
         statement.mode |= kNoAdjust;
         return takeWord(statement) == "noAdjust";
     }
+    case Operation::Scatter:
+        return takeScatter(statement);
     case Operation::Set:
         return takeSetTarget(statement, program, ignored);
     default:
@@ -246,26 +262,88 @@ bool takeSelector(BlockElement& element)
     return true;
 }
 
+/// A bare word that other programs know, and what to write here.
+struct RefusedWord
+{
+    Operation op;
+    std::string_view word, advice;
+};
+
+constexpr std::string_view kNoGroups = "faces have no groups, materials or holes of their own: use comp(f) and select "
+                                       "faces by where they look";
+constexpr std::string_view kNoTexture = "there are no texture coordinates: use split(x), split(y) or split(z)";
+constexpr RefusedWord kRefusedWords[] = {
+    {Operation::Component, "g", kNoGroups}, {Operation::Component, "m", kNoGroups},
+    {Operation::Component, "h", kNoGroups}, {Operation::Split, "u", kNoTexture},
+    {Operation::Split, "v", kNoTexture},    {Operation::Split, "uv", kNoTexture},
+};
+
+/// The bare words of `before` that are no longer among the statement's arguments.
+std::vector<std::string> takenWords(const std::vector<Size>& before, const Statement& statement)
+{
+    std::vector<std::string> words;
+    size_t next = 0; // of the arguments that are left, which keep their order
+    for (const Size& arg : before) {
+        const auto at = [](const Expr& expr) { return std::pair(expr.place.line, expr.place.column); };
+        if (next < statement.args.size() && at(statement.args[next].value) == at(arg.value))
+            ++next;
+        else
+            words.push_back(arg.value.text);
+    }
+    return words;
+}
+
+/// Why takeWords failed, after it took these words.
+std::string wordsError(const Statement& statement, const Program& program, const std::vector<std::string>& words)
+{
+    const std::string& name = program.names[statement.name];
+    const std::string_view usage = findOperation(name)->usage;
+    if (words.empty()) return concat("a bare word is missing in '", name, "': write ", usage);
+    for (const auto& [op, word, advice] : kRefusedWords)
+        if (op == statement.op && word == words[0]) return concat(name, "(", word, ") is not supported: ", advice);
+    if (statement.op == Operation::Set) {
+        const bool declared = program.globalIndex.count({words[0], 0}) > 0;
+        return declared ? concat("set(..) changes attributes, and '", words[0], "' is a constant: declare it with attr")
+                        : concat("set(..) does not know '", words[0], "': declare attr ", words[0], " = .., or write ",
+                                 usage);
+    }
+    std::string list;
+    for (const std::string& word : words) list += concat(list.empty() ? "'" : ", '", word, "'");
+    return concat("'", name, "' does not know the bare word", words.size() > 1 ? "s " : " ", list, ": write ", usage);
+}
+
+/// Why takeSelector failed.
+std::string selectorError(const Expr& selector)
+{
+    if (selector.kind == ExprKind::Text)
+        return concat("a selector is a bare word: write ", selector.text, " without quotes");
+    if (selector.kind != ExprKind::Keyword && selector.kind != ExprKind::Number)
+        return "boolean expressions of selectors are not supported: use one selector after another; a face goes to the "
+               "first that it fits";
+    const std::string_view call = selector.args.empty() ? "" : "(..)";
+    return concat("unknown selector '", selector.kind == ExprKind::Number ? concat(selector.number) : selector.text,
+                  call,
+                  "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, nutant, all, "
+                  "border, inside, a number, or object., world., street. forms; ridge, hip, valley, eave for edges; "
+                  "shape, remainder for what is cut off");
+}
+
 } // namespace
 
 WordsResult resolveWords(Statement& statement, const Program& program)
 {
     WordsResult result;
     result.place = statement.place;
-    const std::string& name = program.names[statement.name];
+    const std::vector<Size> before = statement.args;
     if (!takeWords(statement, program, result.ignored)) {
-        result.error = concat("'", name, "' does not know this bare word: write ", findOperation(name)->usage);
+        result.error = wordsError(statement, program, takenWords(before, statement));
         return result;
     }
     if (!statement.block || statement.op == Operation::Split) return result;
     for (BlockElement& element : statement.block->elements)
         if (!element.nested && !takeSelector(element)) {
             result.place = element.place;
-            result.error =
-                concat("unknown selector '", element.size.value.text,
-                       "': use front, back, left, right, top, bottom, side, vertical, horizontal, aslant, "
-                       "nutant, all, border, inside, a number, or object., world., street. forms; ridge, hip, "
-                       "valley, eave for edges; shape, remainder for what is cut off");
+            result.error = selectorError(element.size.value);
             return result;
         }
     return result;

@@ -181,6 +181,7 @@ private:
     {
         GeoFeature feature;
         feature.id = id;
+        feature.isPart = findText(object, "type") == "BuildingPart";
         readAttributes(object, objects, feature);
         const double height = outline.top - outline.ground;
         if (height >= kFlat && height <= kLargestHeight) feature.height = height;

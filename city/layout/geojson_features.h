@@ -17,6 +17,7 @@ struct GeoFeature
     std::optional<double> height;                ///< m, from properties.height; > 0
     std::optional<double> levels;                ///< from properties.levels or building:levels; > 0
     std::map<std::string, Attribute> attributes; ///< the other scalar properties
+    bool isPart = false;                         ///< the file says that it is a part of a building
     std::vector<GivenFace> faces;                ///< walls and roofs that the file models, in its coordinates
 };
 

@@ -225,7 +225,9 @@ void addGround(Layout& layout, const GroundOptions& options)
 
 Surface groundSurface(const std::string& kind)
 {
-    return {kind, findMaterial(kind).value_or(glm::dvec4(0.20)), glm::dvec4(0.0)};
+    const std::optional<glm::dvec4> rho = findMaterial(kind);
+    HELIO_CHECK(rho, "ground of the kind \"", kind, "\", which is no material");
+    return {kind, *rho, glm::dvec4(0.0)};
 }
 
 void appendGround(ShapeTree& tree, const Layout& layout)

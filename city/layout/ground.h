@@ -24,7 +24,7 @@ void addGround(Layout& layout, const GroundOptions& options = {});
 /// its kind, with groundSurface(kind). buildNodes makes the balanced planar tree of each block from it.
 void appendGround(ShapeTree& tree, const Layout& layout);
 
-/// Reflectance by kind, as findMaterial has it; 0.20 for a kind that is no material. No emission.
+/// Reflectance of a kind, which is the name of a material (findMaterial). No emission.
 Surface groundSurface(const std::string& kind);
 
 } // namespace helio

@@ -37,7 +37,7 @@ Status addStreets(GeoFile& city, const std::filesystem::path& path, std::string_
     Result<GeoFile> streets = readGeoFeatures(*text, path.string());
     if (!streets) return streets.error();
     if (streets->streets.empty()) return Error{concat(path.string(), ": no streets; it holds no LineString")};
-    if (isGeographicCrs(streets->crs) != isGeographicCrs(city.crs) && !streets->crs.empty() && !city.crs.empty())
+    if (!streets->crs.empty() && !city.crs.empty() && !isSameCrs(streets->crs, city.crs))
         return Error{concat(path.string(), ": streets in ", streets->crs, ", but the footprints of ", name, " in ",
                             city.crs, "; give both in one CRS")};
     const glm::dvec2 shift(streets->origin - city.origin);
@@ -83,7 +83,7 @@ std::vector<Footprint> makeFootprints(GeoFeature& feature, const ImportOptions& 
         whole.height = *feature.height;
     else if (feature.levels)
         whole.height = *feature.levels * options.storeyHeight + 1.0;
-    std::vector<Footprint> footprints = splitFootprint(whole, std::move(pieces));
+    std::vector<Footprint> footprints = splitFootprint(whole, std::move(pieces), notes);
     if (!footprints.empty() && whole.height > 0.0)
         notes.count(feature.height ? "height.given" : "height.levels", u32(footprints.size()));
     return footprints;
@@ -100,13 +100,18 @@ void repair(Layout& layout, std::vector<GeoFeature>& features, const ImportOptio
 {
     Ordinary total;
     std::vector<Footprint>& footprints = layout.footprints;
-    for (GeoFeature& feature : features)
-        for (Footprint& footprint : makeFootprints(feature, options, notes, total))
+    std::vector<bool> isPart; // per footprint
+    for (GeoFeature& feature : features) {
+        const bool own = feature.isPart || saysPart(feature.attributes);
+        for (Footprint& footprint : makeFootprints(feature, options, notes, total)) {
             footprints.push_back(std::move(footprint));
+            isPart.push_back(own);
+        }
+    }
     if (total.reversedRings + total.straightCorners > 0)
         notes.summary(concat("rings: ", total.reversedRings, " reversed, ", total.straightCorners,
                              " corners on straight lines dropped"));
-    replaceOutlinesByParts(footprints, notes);
+    replaceOutlinesByParts(footprints, isPart, notes);
     dropEqualFootprints(footprints, notes);
     fillMissingHeights(footprints, options, notes);
     const auto count = [&](const char* kind) {
@@ -117,6 +122,7 @@ void repair(Layout& layout, std::vector<GeoFeature>& features, const ImportOptio
                          count("height.neighbours"), " the median of neighbours, ", count("height.default"),
                          " the default of ", options.defaultHeight, " m"));
     cutOverlaps(footprints, notes);
+    makeIdsUnique(footprints, notes);
 }
 
 Result<GeoFile> readCity(std::string_view text, std::string_view name, const ImportOptions& options)
@@ -153,7 +159,7 @@ Result<Layout> parseCity(std::string_view text, std::string_view name, const Imp
         return Error{concat(name, ": no footprint to use", layout.notes.empty() ? "" : " (" + layout.notes[0] + ")")};
     findSharedWalls(layout);
     markStreets(layout);
-    chooseFronts(layout);
+    if (!options.keepFirstEdge) chooseFronts(layout);
     return layout;
 }
 

@@ -5,7 +5,7 @@
 
 #include "city/base/result.h"
 
-// JSON texts from outside, read without exceptions. Internal to city/layout.
+// JSON texts from outside, read without exceptions. For readers of JSON inputs, not for other code.
 namespace helio {
 
 /// Parses one JSON value that fills `part`, a piece of `whole` (for line and byte in messages). Errors (one line):

@@ -8,6 +8,7 @@
 #include <iomanip>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "city/base/check.h"
@@ -50,19 +51,6 @@ std::vector<Polygon2> outlinesOf(std::span<const Footprint> footprints)
     return outlines;
 }
 
-bool isPart(const Footprint& footprint)
-{
-    for (const char* key : {"part", "building:part"}) {
-        const auto place = footprint.attributes.find(key);
-        if (place == footprint.attributes.end()) continue;
-        if (const bool* flag = std::get_if<bool>(&place->second)) return *flag;
-        if (const double* number = std::get_if<double>(&place->second)) return *number != 0.0;
-        const std::string& word = std::get<std::string>(place->second);
-        return !word.empty() && word != "no" && word != "false" && word != "0";
-    }
-    return false;
-}
-
 // 0 inside of the ring, else the distance to its nearest edge.
 double distanceTo(const Ring2& ring, const glm::dvec2& point)
 {
@@ -101,6 +89,19 @@ std::vector<Polygon2> restOf(std::span<const Footprint> footprints, u32 f, const
 
 } // namespace
 
+bool saysPart(const std::map<std::string, Attribute>& attributes)
+{
+    for (const char* key : {"part", "building:part"}) {
+        const auto place = attributes.find(key);
+        if (place == attributes.end()) continue;
+        if (const bool* flag = std::get_if<bool>(&place->second)) return *flag;
+        if (const double* number = std::get_if<double>(&place->second)) return *number != 0.0;
+        const std::string& word = std::get<std::string>(place->second);
+        return !word.empty() && word != "no" && word != "false" && word != "0";
+    }
+    return false;
+}
+
 std::vector<OverlappingPair> overlappingPairs(std::span<const Polygon2> polygons, double least)
 {
     BoxGrid grid(32.0);
@@ -133,7 +134,7 @@ std::vector<u32> firstEqual(std::span<const Polygon2> polygons)
     return first;
 }
 
-std::vector<Footprint> splitFootprint(const Footprint& whole, std::vector<Polygon2> pieces)
+std::vector<Footprint> splitFootprint(const Footprint& whole, std::vector<Polygon2> pieces, ImportNotes& notes)
 {
     std::vector<Footprint> result;
     for (Polygon2& piece : pieces) {
@@ -150,16 +151,40 @@ std::vector<Footprint> splitFootprint(const Footprint& whole, std::vector<Polygo
                 result.begin(), result.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
             nearest->faces.push_back(face);
         }
-        std::erase_if(result, [](const Footprint& piece) { return piece.faces.empty(); });
+        const size_t bare = std::erase_if(result, [](const Footprint& piece) { return piece.faces.empty(); });
+        if (bare > 0)
+            notes.feature(whole.id, {{"repaired.faceless_pieces",
+                                      concat("dropped ", bare, " piece(s) on which no given wall or roof stands")}});
     }
     for (size_t i = 1; i < result.size(); ++i) result[i].id = concat(whole.id, ".", i + 1);
     return result;
 }
 
-void replaceOutlinesByParts(std::vector<Footprint>& footprints, ImportNotes& notes)
+void makeIdsUnique(std::vector<Footprint>& footprints, ImportNotes& notes)
 {
-    std::vector<bool> part;
-    for (const Footprint& footprint : footprints) part.push_back(isPart(footprint));
+    std::set<std::string> ids, taken; // of all, and of those that have been passed
+    for (const Footprint& footprint : footprints) ids.insert(footprint.id);
+    std::map<std::string, u32> nextOf; // by id: so that many equal ids do not all count from 2
+    u32 renamed = 0;
+    std::string first;
+    for (Footprint& footprint : footprints) {
+        if (taken.insert(footprint.id).second) continue;
+        u32& next = nextOf.try_emplace(footprint.id, 2).first->second;
+        std::string id = concat(footprint.id, ".", next++);
+        while (!ids.insert(id).second) id = concat(footprint.id, ".", next++);
+        if (renamed++ == 0) first = concat(footprint.id, " is now ", id);
+        taken.insert(id);
+        footprint.id = std::move(id);
+    }
+    if (renamed == 0) return;
+    notes.count("repaired.renamed", renamed);
+    notes.summary(concat("ids: ", renamed,
+                         " buildings shared theirs with an earlier one and were renamed (the first: ", first, ")"));
+}
+
+void replaceOutlinesByParts(std::vector<Footprint>& footprints, const std::vector<bool>& part, ImportNotes& notes)
+{
+    HELIO_CHECK(part.size() == footprints.size(), part.size(), " flags for ", footprints.size(), " footprints");
     if (std::none_of(part.begin(), part.end(), [](bool is) { return is; })) return;
     std::map<u32, Cut> cuts;
     for (const OverlappingPair& pair : overlappingPairs(outlinesOf(footprints))) {
@@ -185,7 +210,8 @@ void replaceOutlinesByParts(std::vector<Footprint>& footprints, ImportNotes& not
         for (const Polygon2& piece : rest) left += area(piece);
         const bool isReplaced = left <= (1.0 - kWholeCover) * area(footprints[f].outline);
         if (!isReplaced)
-            for (Footprint& piece : splitFootprint(footprints[f], std::move(rest))) kept.push_back(std::move(piece));
+            for (Footprint& piece : splitFootprint(footprints[f], std::move(rest), notes))
+                kept.push_back(std::move(piece));
         notes.feature(footprints[f].id,
                       {isReplaced
                            ? ImportNotes::Item{"repaired.replaced_by_parts", "replaced by its part " + parts}
@@ -227,7 +253,7 @@ void cutOverlaps(std::vector<Footprint>& footprints, ImportNotes& notes)
             kept.push_back(footprints[f]);
             continue;
         }
-        std::vector<Footprint> pieces = splitFootprint(footprints[f], restOf(footprints, f, cut->second));
+        std::vector<Footprint> pieces = splitFootprint(footprints[f], restOf(footprints, f, cut->second), notes);
         const std::string what = concat("overlaps feature ", namesOf(footprints, cut->second.by), " by ",
                                         oneDecimal(cut->second.area), " m2, ");
         notes.feature(footprints[f].id,

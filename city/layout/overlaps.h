@@ -20,13 +20,17 @@ struct OverlappingPair
 /// cross themselves count by non-zero filling.
 std::vector<OverlappingPair> overlappingPairs(std::span<const Polygon2> polygons, double least = 0.5);
 
-/// Per polygon, the index of the first one with the same corners (within 1 cm, in any order of travel).
+/// Per polygon, the index of the first one whose corners round to the same points of a 1 cm grid (in any order of
+/// travel).
 std::vector<u32> firstEqual(std::span<const Polygon2> polygons);
 
-/// Where parts of a building (features with a true `part` or `building:part`) lie in an outline that is no part, they
-/// replace it (OSM Simple 3D Buildings): an outline of which they cover 90 % is dropped, from another one they are cut.
-/// A part without a height takes the outline's. Heights may still be 0 = not known.
-void replaceOutlinesByParts(std::vector<Footprint>& footprints, ImportNotes& notes);
+/// True for a true property `part` or `building:part` (OSM Simple 3D Buildings).
+bool saysPart(const std::map<std::string, Attribute>& attributes);
+
+/// Where parts of a building (`isPart`, one a footprint) lie in an outline that is no part, they replace it: an outline
+/// of which they cover 90 % is dropped, from another one they are cut. A part without a height takes the outline's.
+/// Heights may still be 0 = not known.
+void replaceOutlinesByParts(std::vector<Footprint>& footprints, const std::vector<bool>& isPart, ImportNotes& notes);
 
 /// Drops every footprint whose polygon equals an earlier one's; the earlier one takes the larger height.
 void dropEqualFootprints(std::vector<Footprint>& footprints, ImportNotes& notes);
@@ -36,7 +40,11 @@ void dropEqualFootprints(std::vector<Footprint>& footprints, ImportNotes& notes)
 void cutOverlaps(std::vector<Footprint>& footprints, ImportNotes& notes);
 
 /// Makes one footprint of each polygon: copies of `whole`, ids "x", "x.2", ... Given faces go to the piece that they
-/// stand on; a piece that none stands on, where there are any, is left out.
-std::vector<Footprint> splitFootprint(const Footprint& whole, std::vector<Polygon2> pieces);
+/// stand on; a piece that none stands on, where there are any, is left out, with a note.
+std::vector<Footprint> splitFootprint(const Footprint& whole, std::vector<Polygon2> pieces, ImportNotes& notes);
+
+/// Gives every footprint an id of its own, in order: one whose id an earlier footprint has becomes "id.2", "id.3", ...:
+/// the next that no footprint has. One note for all.
+void makeIdsUnique(std::vector<Footprint>& footprints, ImportNotes& notes);
 
 } // namespace helio

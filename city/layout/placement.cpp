@@ -186,6 +186,26 @@ private:
     std::string firstReason_;
 };
 
+double turnedTowards(double longitude, double middle)
+{
+    return middle + std::remainder(longitude - middle, 360.0);
+}
+
+// On the antimeridian neighbours may be 360 degrees apart: turns every feature as a whole to within 180 degrees of the
+// median one. Longitudes may then exceed 180.
+void joinAcrossAntimeridian(std::vector<GeoFeature>& features)
+{
+    const auto turn = [](GeoFeature& feature, double middle) {
+        forEachCorner(feature, [&](glm::dvec2& corner) {
+            if (std::abs(corner.x - middle) > 180.0) corner.x = turnedTowards(corner.x, middle);
+        });
+    };
+    // One that stands on the line itself would have its middle on the far side of the globe.
+    for (GeoFeature& feature : features) turn(feature, feature.polygons[0].outer[0].x);
+    const double middle = medianCentre(features).x;
+    for (GeoFeature& feature : features) turn(feature, middle);
+}
+
 void project(GeoFeature& feature, const TransverseMercator& projection)
 {
     forEachCorner(feature, [&](glm::dvec2& corner) { corner = projection.forward({corner.y, corner.x}); });
@@ -203,10 +223,11 @@ void shift(GeoFeature& feature, const glm::dvec2& offset)
     }
 }
 
-void dropFarStreets(PlacedCity& city)
+// Returns how many lines are gone.
+size_t dropFarStreets(PlacedCity& city)
 {
     const Box2 around = boxAround(city.features).grown(kStreetMargin);
-    std::erase_if(city.streets, [&](const Ring2& line) {
+    return std::erase_if(city.streets, [&](const Ring2& line) {
         const bool isFinite = std::all_of(line.begin(), line.end(),
                                           [](const glm::dvec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); });
         return !isFinite || !boxOf(line).touches(around);
@@ -246,6 +267,7 @@ Result<PlacedCity> placeCity(GeoFile file, std::string_view name, const ImportOp
         if (reason.empty()) return Error{concat(name, ": no footprint to use; it holds no Polygon")};
         return Error{concat(name, ": no footprint to use (", reason, ")")};
     }
+    if (degrees) joinAcrossAntimeridian(city.features);
     const glm::dvec2 median = medianCentre(city.features);
     if (degrees) {
         const TransverseMercator rough({median.y, median.x});
@@ -257,9 +279,12 @@ Result<PlacedCity> placeCity(GeoFile file, std::string_view name, const ImportOp
     const Box2 box = boxAround(city.features);
     glm::dvec2 offset = 0.5 * (box.low + box.high);
     if (degrees) {
-        city.place = GeoPoint{offset.y, offset.x};
+        city.place = GeoPoint{offset.y, std::abs(offset.x) > 180.0 ? turnedTowards(offset.x, 0.0) : offset.x};
         const TransverseMercator projection(*city.place);
         for (GeoFeature& feature : city.features) project(feature, projection);
+        // Around a pole the middle of longitudes may lie aside of the city.
+        sieve.dropFar(city.features, [](const glm::dvec2& corner) { return corner; });
+        if (city.features.empty()) return Error{concat(name, ": no footprint to use (", sieve.firstReason(), ")")};
         for (Ring2& line : city.streets)
             for (glm::dvec2& point : line) point = projection.forward({point.y, point.x});
         city.crs = crsOf(*city.place);
@@ -271,7 +296,15 @@ Result<PlacedCity> placeCity(GeoFile file, std::string_view name, const ImportOp
         city.origin = file.origin + glm::dvec3(offset, 0.0);
         city.place = placeOfUtm(city.crs, city.origin);
     }
-    dropFarStreets(city);
+    const size_t lines = city.streets.size(), far = dropFarStreets(city);
+    if (lines > 0 && far == lines && !options.streets.empty())
+        return Error{concat(options.streets.string(), ": none of its ", lines,
+                            " lines comes within 100 m of the footprints of ", name,
+                            "; give the streets of this city, in its coordinates")};
+    if (far > 0) {
+        notes.count("skipped.far_streets", u32(far));
+        notes.summary(concat("streets: ", far, " of ", lines, " lines lie over 100 m from the footprints, left out"));
+    }
     return city;
 }
 

@@ -26,7 +26,8 @@ bool isInDegrees(const GeoFile& file);
 /// not finite or beyond 1e7 m, of the other kind of CRS, more than 50 km from the median one; over 20,000 corners, or
 /// edges that meet in over 10,000 places), with a note each. Longitudes and latitudes are projected
 /// (TransverseMercator, centred on the bounding box of what is left); of metres the centre of the bounding box, rounded
-/// to 1 m, is subtracted. Without a feature left: an error that tells the first reason.
+/// to 1 m, is subtracted. Features on both sides of the antimeridian
+/// come together. Without a feature left, or with ImportOptions::streets and no line left: an error that tells why.
 Result<PlacedCity> placeCity(GeoFile file, std::string_view name, const ImportOptions& options, ImportNotes& notes);
 
 } // namespace helio

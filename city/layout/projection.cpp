@@ -62,6 +62,22 @@ glm::dvec2 toPlane(double latitudeDeg, double longitudeDeg)
     return plane;
 }
 
+// The first run of four digits or more after "EPSG" (a version of the register may stand before it); empty without.
+std::string_view epsgCodeOf(std::string_view crs)
+{
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    size_t begin = crs.find("EPSG");
+    if (begin == std::string_view::npos) return {};
+    while (begin < crs.size()) {
+        size_t end = begin;
+        while (end < crs.size() && isDigit(crs[end])) ++end;
+        const std::string_view code = crs.substr(begin, end - begin);
+        if (code.size() >= 4) return code == "7415" ? "28992" : code;
+        begin = end + 1;
+    }
+    return {};
+}
+
 } // namespace
 
 TransverseMercator::TransverseMercator(const GeoPoint& centre, double scale)
@@ -105,6 +121,13 @@ bool isGeographicCrs(std::string_view crs)
     for (const std::string_view name : {"4326", "CRS84", "4258", "4979"})
         if (crs.find(name) != std::string_view::npos) return true;
     return false;
+}
+
+bool isSameCrs(std::string_view a, std::string_view b)
+{
+    if (isGeographicCrs(a) || isGeographicCrs(b)) return isGeographicCrs(a) && isGeographicCrs(b);
+    const std::string_view codeA = epsgCodeOf(a), codeB = epsgCodeOf(b);
+    return codeA.empty() && codeB.empty() ? a == b : codeA == codeB;
 }
 
 std::optional<GeoPoint> placeOfUtm(std::string_view crs, const glm::dvec3& point)

@@ -35,6 +35,11 @@ private:
 /// True if the name of a CRS is one whose coordinates are longitude and latitude (EPSG 4326, 4258, 4979, CRS84).
 bool isGeographicCrs(std::string_view crs);
 
+/// True if the names of two CRSs mean the same coordinates on the ground, as far as names tell: both geographic, or of
+/// the same EPSG code however it is written ("EPSG:32632 (UTM 32N)", "urn:ogc:def:crs:EPSG::32632"; 7415, which adds
+/// heights to 28992, is the same as that), or, without a code, the same text.
+bool isSameCrs(std::string_view a, std::string_view b);
+
 /// Where a point with UTM coordinates lies, if `crs` names a UTM zone on WGS 84 (EPSG:326zz, 327zz) and the coordinates
 /// are those of a zone (easting 100-900 km, northing 0-10,000 km).
 std::optional<GeoPoint> placeOfUtm(std::string_view crs, const glm::dvec3& point);

@@ -123,8 +123,9 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
     Steps steps(options, stats);
     const auto visibility = steps.run("ray structure", [&](auto) { return std::make_unique<Visibility>(tree); });
     stats.raysPerPatch = options.raysPerPatch > 0 ? options.raysPerPatch : autoRaysPerPatch(tree.patchCount());
-    const SkyScan scan = steps.run("sky", [&](auto progress) {
-        return scanSky(tree, *visibility, stats.raysPerPatch, options.seed, options.jobs, progress);
+    const SkyDome dome(options.skyPatches > 0 ? options.skyPatches : autoSkyPatches(tree.patchCount()));
+    SkyScan scan = steps.run("sky", [&](auto progress) {
+        return scanSky(tree, *visibility, stats.raysPerPatch, options.seed, options.jobs, progress, dome);
     });
     stats.rootPairCount = u32(scan.rootPairs.size());
 
@@ -157,7 +158,7 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
         paper.literal = options.method == LinkMethod::PaperLiteral;
         makeRows(steps.run("links", [&](auto) { return paperLinks(tree, paper); }));
     }
-    bake.sky = uniformSkyTable(scan);
+    bake.sky = std::move(scan.links);
 
     stats.linkCount = bake.links.column.size();
     stats.linksPerPatch = double(stats.linkCount) / double(std::max(1u, tree.patchCount()));

@@ -27,6 +27,7 @@ struct LightOptions
     /// method's default.
     double formFactorEpsilon = 0.0;
     u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = 64 million over the number of patches, within [128, 1024]
+    u32 skyPatches = 1;   ///< cells of the sky's dome; 1 = for uniform skies only, 0 = autoSkyPatches
     u32 raysPerLink = 0;  ///< visibility rays of a pair of parts (a link has up to 16 such pairs); 0 = 4
     double cutoff = 22.5; ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
     u32 jobs = 0;         ///< threads; 0 = all cores. The result does not depend on it.

@@ -29,8 +29,8 @@ double pointFactor(const glm::dvec3& point, const glm::dvec3& normal, std::span<
 /// only with what lies before the other's plane. Near pairs: double contour integral of ln r (Sparrow 1963; parallel
 /// edges in closed form, else the inner integral in closed form and the outer by Gauss points graded towards the
 /// nearest approach); pairs farther apart than the smaller one's size: Gauss points over the smaller, pointFactor to
-/// the larger. Relative error below 1e-5 where F > 1e-4, absolute error of F of the smaller polygon below 1e-8
-/// elsewhere.
+/// the larger. Relative error below 1e-5 (concave polygons that nearly touch: 1e-4) where F > 1e-4, absolute error of F
+/// of the smaller polygon below 1e-8 elsewhere; pairFactor() is exact.
 double exchange(const PlanarShape& a, const PlanarShape& b);
 
 } // namespace helio

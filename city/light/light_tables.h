@@ -16,7 +16,7 @@ struct LinkTable
     std::vector<float> factor; ///< F(receiver to sender) x visibility, 0..1
 };
 
-/// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column).
+/// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column). The sky patches are the cells of a SkyDome.
 struct SkyTable
 {
     std::vector<gpu::SkyPatchRecord> skyPatches;

@@ -23,6 +23,44 @@ void sortUnique(std::vector<std::pair<u32, u32>>& pairs)
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
+/// Sky links of a run of patches, in rows as those of SkyTable.
+struct SkyRows
+{
+    std::vector<u32> rowEnd; ///< of each patch, from the run's first link
+    std::vector<u32> column;
+    std::vector<float> factor;
+};
+
+/// Ends a patch's row: `cells` are those that rays ended in, `counts` how many. Leaves both empty.
+void endRow(SkyRows& rows, std::vector<u32>& counts, std::vector<u32>& cells, float share)
+{
+    std::sort(cells.begin(), cells.end());
+    for (const u32 cell : cells) {
+        rows.column.push_back(cell);
+        rows.factor.push_back(float(counts[cell]) * share);
+        counts[cell] = 0;
+    }
+    cells.clear();
+    rows.rowEnd.push_back(u32(rows.column.size()));
+}
+
+SkyTable joinRows(const SkyDome& dome, std::vector<SkyRows>& runs)
+{
+    SkyTable table;
+    for (u32 cell = 0; cell < dome.cellCount(); ++cell)
+        table.skyPatches.push_back({glm::vec3(dome.centreOf(cell)), float(dome.solidAngle())});
+    table.rowBegin.push_back(0);
+    for (SkyRows& run : runs) {
+        const u64 first = table.column.size();
+        HELIO_CHECK(first + run.column.size() < kNoIndex, first, " sky links");
+        for (const u32 end : run.rowEnd) table.rowBegin.push_back(u32(first) + end);
+        table.column.insert(table.column.end(), run.column.begin(), run.column.end());
+        table.factor.insert(table.factor.end(), run.factor.begin(), run.factor.end());
+        run = {};
+    }
+    return table;
+}
+
 } // namespace
 
 std::vector<u32> planarRoots(const NodeTree& tree)
@@ -40,8 +78,13 @@ u32 autoRaysPerPatch(u32 patchCount)
     return std::bit_floor(std::clamp(64'000'000u / std::max(1u, patchCount), 128u, 1024u));
 }
 
+u32 autoSkyPatches(u32 patchCount)
+{
+    return patchCount <= 200'000 ? 96 : 1;
+}
+
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
-                const std::function<void(double)>& progress)
+                const std::function<void(double)>& progress, const SkyDome& dome)
 {
     HELIO_CHECK(rays > 0, "rays = ", rays);
     const u32 count = tree.patchCount();
@@ -49,14 +92,20 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
     SkyScan scan;
     for (std::vector<float>* column : {&scan.sky, &scan.below, &scan.rowSum, &scan.back}) column->resize(count);
     std::vector<std::vector<std::pair<u32, u32>>> pairsOf((count + kChunk - 1) / kChunk);
+    std::vector<SkyRows> rowsOf(pairsOf.size());
     std::mutex mutex;
     u32 done = 0;
 
     parallelFor(count, kChunk, jobs, [&](u32 begin, u32 end) {
         std::vector<std::pair<u32, u32>>& pairs = pairsOf[begin / kChunk];
-        std::vector<u32> seen;
+        SkyRows& rows = rowsOf[begin / kChunk];
+        std::vector<u32> seen, cells, inCell(dome.cellCount(), 0);
+        const float share = 1.0f / float(rays);
         for (u32 patch = begin; patch < end; ++patch) {
-            if (tree.patches[patch].covered) continue;
+            if (tree.patches[patch].covered) {
+                endRow(rows, inCell, cells, share);
+                continue;
+            }
             const PlaneFrame frame = planeFrame(tree.nodes[patch].normal);
             const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed, 0x5ca7), patch));
             u32 sky = 0, below = 0, front = 0, back = 0;
@@ -68,8 +117,12 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                     r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * frame.normal;
                 const RayHit hit =
                     visibility.trace(visibility.pointOnPatch(patch, x[2], x[3]), frame.normal, direction);
-                if (hit.patch == kNoIndex) {
-                    ++(direction.z > 0.0 ? sky : below);
+                if (hit.patch == kNoIndex && direction.z > 0.0) {
+                    ++sky;
+                    const u32 cell = dome.cellOf(direction);
+                    if (inCell[cell]++ == 0) cells.push_back(cell);
+                } else if (hit.patch == kNoIndex) {
+                    ++below;
                 } else if (!hit.front || tree.patches[hit.patch].covered) {
                     ++back;
                 } else {
@@ -77,7 +130,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                     if (seen.empty() || seen.back() != root[hit.patch]) seen.push_back(root[hit.patch]);
                 }
             }
-            const float share = 1.0f / float(rays);
+            endRow(rows, inCell, cells, share);
             scan.sky[patch] = float(sky) * share;
             scan.below[patch] = float(below) * share;
             scan.rowSum[patch] = float(front) * share;
@@ -97,22 +150,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         pairs = {};
     }
     sortUnique(scan.rootPairs);
+    scan.links = joinRows(dome, rowsOf);
     return scan;
-}
-
-SkyTable uniformSkyTable(const SkyScan& scan)
-{
-    SkyTable table;
-    table.skyPatches.push_back({glm::vec3(0.0f, 0.0f, 1.0f), float(2.0 * std::numbers::pi)});
-    table.rowBegin.push_back(0);
-    for (const float factor : scan.sky) {
-        if (factor > 0.0f) {
-            table.column.push_back(0);
-            table.factor.push_back(factor);
-        }
-        table.rowBegin.push_back(u32(table.column.size()));
-    }
-    return table;
 }
 
 } // namespace helio

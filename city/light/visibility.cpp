@@ -184,7 +184,11 @@ RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     const double along =
         double(hit.hit.Ng_x) * direction.x + double(hit.hit.Ng_y) * direction.y + double(hit.hit.Ng_z) * direction.z;
-    return {scene_->patchOfTriangle[hit.hit.primID], along < 0.0};
+    // From the corners: more exact than the ray's own length where it came from far away.
+    const glm::dvec3 a(scene_->corners[3 * hit.hit.primID]), b(scene_->corners[3 * hit.hit.primID + 1]),
+        c(scene_->corners[3 * hit.hit.primID + 2]);
+    const glm::dvec3 point = scene_->origin + a + double(hit.hit.u) * (b - a) + double(hit.hit.v) * (c - a);
+    return {scene_->patchOfTriangle[hit.hit.primID], along < 0.0, point};
 }
 
 } // namespace helio

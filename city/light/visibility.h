@@ -13,6 +13,7 @@ struct RayHit
 {
     u32 patch = kNoIndex; ///< kNoIndex: nothing, the ray leaves the scene
     bool front = false;   ///< the lit side
+    glm::dvec3 point{0.0}; ///< where, in the tree's frame; only with a patch
 };
 
 /// Rays against the polygons of all patches. Patches block from both sides; assets do not block, the patch in whose

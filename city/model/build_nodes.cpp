@@ -34,8 +34,9 @@ struct RawNode
 class Builder
 {
 public:
-    Builder(const ShapeTree& shapes, std::span<const AssetSummary> assets, const NodeOptions& options)
-        : shapes_(shapes), assets_(assets)
+    /// `spent`: the same shapes, if their polygons may be taken; else null.
+    Builder(const ShapeTree& shapes, ShapeTree* spent, std::span<const AssetSummary> assets, const NodeOptions& options)
+        : shapes_(shapes), spent_(spent), assets_(assets)
     {
         HELIO_CHECK(assets.size() == shapes.assets.size(), assets.size(), " asset summaries, ", shapes.assets.size(),
                     " assets");
@@ -59,8 +60,17 @@ public:
         patchOfPiece_.resize(cells_.pieces.size());
         for (u32 c = 0; c < cells_.cells.size(); ++c)
             if (cells_.cells[c].alive) itemsOf_[cells_.cells[c].owner].push_back(makePatch(c));
+        // Whole cities are built at once: what is no longer needed goes.
+        release(cells_.cells);
+        release(cells_.polygonRefs);
+        release(cells_.cut);
+        release(keys_);
+        if (spent_ != nullptr) release(spent_->polygons);
         for (u32 i = u32(count); i-- > 0;) gather(i);
+        release(itemsOf_);
         number();
+        release(raw_);
+        release(children_);
         placeInstances();
         build_.tree.names = shapes_.names;
         build_.tree.buildingIds = shapes_.buildingIds;
@@ -69,6 +79,8 @@ public:
     }
 
 private:
+    template <typename T> static void release(std::vector<T>& vector) { std::vector<T>().swap(vector); }
+
     /// A shape's key is the hash of its building's id and the child numbers on the way to it.
     void makeKeys()
     {
@@ -83,15 +95,23 @@ private:
         }
     }
 
-    void addRings(const Polygon3& polygon)
+    void addRings(Polygon3 polygon)
     {
         NodeTree& tree = build_.tree;
-        tree.rings.push_back(polygon.outer);
+        tree.rings.push_back(std::move(polygon.outer));
         tree.ringIsHole.push_back(0);
-        for (const Ring3& hole : polygon.holes) {
-            tree.rings.push_back(hole);
+        for (Ring3& hole : polygon.holes) {
+            tree.rings.push_back(std::move(hole));
             tree.ringIsHole.push_back(1);
         }
+    }
+
+    /// A polygon of the cells, for the last time.
+    Polygon3 takePolygon(u32 ref)
+    {
+        const size_t derived = shapes_.polygons.size();
+        if (ref >= derived) return std::move(cells_.cut[ref - derived]);
+        return spent_ != nullptr ? std::move(spent_->polygons[ref]) : shapes_.polygons[ref];
     }
 
     u32 makePatch(u32 cellIndex)
@@ -123,7 +143,7 @@ private:
         const DrawnPiece& piece = build_.pieces.back();
         node.ringBegin = piece.ringBegin;
         node.ringCount = piece.ringCount;
-        if (cell.firstPiece != cell.lastPiece) joinOutline(cell, node);
+        if (cell.firstPiece != cell.lastPiece) joinOutline(firstDrawn, cell.normal, node);
         node.area = patch.area;
         node.normal = cell.normal;
         node.building = first.building;
@@ -159,9 +179,9 @@ private:
         drawn.rho = rho;
         drawn.ringBegin = u32(tree.rings.size());
         for (u32 r = piece.polygonBegin; r < piece.polygonBegin + piece.polygonCount; ++r) {
-            const Polygon3& polygon = cells_.polygon(shapes_, cells_.polygonRefs[r]);
+            Polygon3 polygon = takePolygon(cells_.polygonRefs[r]);
             node.centroid += area(polygon) * centroid(polygon);
-            addRings(polygon);
+            addRings(std::move(polygon));
         }
         drawn.ringCount = u32(tree.rings.size()) - drawn.ringBegin;
         patch.area += piece.area;
@@ -171,16 +191,20 @@ private:
         build_.pieces.push_back(drawn);
     }
 
-    /// The outline of several pieces: their union.
-    void joinOutline(const PatchCell& cell, Node& node)
+    /// The outline of several pieces, drawn ones from `firstDrawn` on: their union.
+    void joinOutline(size_t firstDrawn, const glm::dvec3& normal, Node& node)
     {
+        const NodeTree& tree = build_.tree;
         std::vector<Polygon3> polygons;
-        for (u32 p = cell.firstPiece; p != kNoIndex; p = cells_.pieces[p].next)
-            for (u32 r = 0; r < cells_.pieces[p].polygonCount; ++r)
-                polygons.push_back(cells_.polygon(shapes_, cells_.polygonRefs[cells_.pieces[p].polygonBegin + r]));
-        node.ringBegin = u32(build_.tree.rings.size());
-        for (const Polygon3& polygon : joinPolygons(polygons, cell.normal)) addRings(polygon);
-        node.ringCount = u32(build_.tree.rings.size()) - node.ringBegin;
+        for (size_t r = build_.pieces[firstDrawn].ringBegin; r < tree.rings.size(); ++r) {
+            if (tree.ringIsHole[r] == 0)
+                polygons.push_back({tree.rings[r], {}});
+            else
+                polygons.back().holes.push_back(tree.rings[r]);
+        }
+        node.ringBegin = u32(tree.rings.size());
+        for (Polygon3& polygon : joinPolygons(polygons, normal)) addRings(std::move(polygon));
+        node.ringCount = u32(tree.rings.size()) - node.ringBegin;
     }
 
     std::span<const u32> childrenOf(const RawNode& raw) const
@@ -370,7 +394,7 @@ private:
     void placeInstances()
     {
         build_.trimPlanes = shapes_.trimPlanes;
-        const OverlaySearch search(shapes_, cells_, build_.tree, patchOfPiece_);
+        OverlaySearch search(shapes_, cells_, build_.tree, patchOfPiece_);
         std::sort(pieceOfShape_.begin(), pieceOfShape_.end());
         for (u32 i = 0; i < shapes_.shapes.size(); ++i) {
             const Shape& shape = shapes_.shapes[i];
@@ -400,6 +424,7 @@ private:
     }
 
     const ShapeTree& shapes_;
+    ShapeTree* spent_;
     std::span<const AssetSummary> assets_;
     PatchCells cells_;
     NodeTreeBuild build_;
@@ -415,7 +440,12 @@ private:
 
 NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets, const NodeOptions& options)
 {
-    return Builder(shapes, assets, options).build();
+    return Builder(shapes, nullptr, assets, options).build();
+}
+
+NodeTreeBuild buildNodes(ShapeTree&& shapes, std::span<const AssetSummary> assets, const NodeOptions& options)
+{
+    return Builder(shapes, &shapes, assets, options).build();
 }
 
 } // namespace helio

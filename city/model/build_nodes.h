@@ -44,7 +44,7 @@ struct NodeTreeBuild
     u32 degenerateCount = 0;              ///< polygons dropped because their area is below 1e-8 m2
     u32 orphanOverlayCount = 0;           ///< overlays without any patch of their building to stand on: not drawn
     u32 overlapCount = 0;                 ///< planar nodes whose children overlap: more area than their outline's hull
-    u32 stripCount = 0;                   ///< parts of leaves that were cut (NodeOptions::stripHeight, maxPatch)
+    u32 stripCount = 0;                   ///< parts of leaves that were cut (NodeOptions::stripHeight)
     u32 mergedCount = 0;                  ///< leaves, or parts of them, that went into another's patch
     u32 sliverCount = 0;                  ///< of these: slivers
     u32 coveredPatchCount = 0;            ///< patches that exchange no light
@@ -63,5 +63,8 @@ struct NodeTreeBuild
 /// O(n log n) in the number of leaves.
 NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets,
                          const NodeOptions& options = {});
+
+/// The same, for a derivation that is not needed any more: its polygons become the outlines, which saves a copy.
+NodeTreeBuild buildNodes(ShapeTree&& shapes, std::span<const AssetSummary> assets, const NodeOptions& options = {});
 
 } // namespace helio

@@ -7,6 +7,7 @@
 
 #include "city/model/join_polygons.h"
 #include "city/model/plane_groups.h"
+#include "city/model/triangulate.h"
 
 namespace helio {
 namespace {
@@ -22,7 +23,8 @@ struct Flat
     glm::dvec2 low{1e300}, high{-1e300};
     u32 cell = 0;
     bool front = false;  // looks to the side that kAside points to
-    double hidden = 0.0; // m2
+    double hidden = 0.0; // m2; what several cells hide counts several times
+    std::vector<u32> by; // flat cells that hide parts of it
 };
 
 bool isConvex(const Polygon3& polygon, const glm::dvec3& normal)
@@ -36,25 +38,50 @@ bool isConvex(const Polygon3& polygon, const glm::dvec3& normal)
     return true;
 }
 
-/// Area of what lies inside the convex polygon, m2; `normal` is its own.
-double areaInside(const Polygon3& polygon, const Polygon3& convex, const glm::dvec3& normal)
+/// The parts of coplanar polygons inside the convex ring; `normal` is the ring's own. What lies outside goes to
+/// `outside`, if there is one.
+std::vector<Polygon3> clipInside(std::vector<Polygon3> parts, std::span<const glm::dvec3> ring,
+                                 const glm::dvec3& normal, std::vector<Polygon3>* outside)
 {
-    std::vector<Polygon3> parts{polygon};
-    const Ring3& ring = convex.outer;
+    const auto append = [](std::vector<Polygon3>& to, std::vector<Polygon3> from) {
+        for (Polygon3& polygon : from) to.push_back(std::move(polygon));
+    };
     for (size_t i = 0; i < ring.size() && !parts.empty(); ++i) {
         const glm::dvec3 edge = ring[(i + 1) % ring.size()] - ring[i];
         const double length = glm::length(edge);
         if (length < 1e-9) continue;
         const glm::dvec3 inwards = glm::cross(normal, edge / length);
+        const double offset = glm::dot(inwards, ring[i]);
         std::vector<Polygon3> kept;
-        for (const Polygon3& part : parts)
-            for (Polygon3& piece : clipPolygon(part, inwards, glm::dot(inwards, ring[i])))
-                kept.push_back(std::move(piece));
+        for (const Polygon3& part : parts) {
+            append(kept, clipPolygon(part, inwards, offset));
+            if (outside != nullptr) append(*outside, clipPolygon(part, -inwards, -offset));
+        }
         parts = std::move(kept);
     }
+    return parts;
+}
+
+double sumOfAreas(std::span<const Polygon3> polygons)
+{
     double sum = 0.0;
-    for (const Polygon3& part : parts) sum += area(part);
+    for (const Polygon3& polygon : polygons) sum += area(polygon);
     return sum;
+}
+
+/// What is left of coplanar polygons without the convex ring.
+std::vector<Polygon3> without(const std::vector<Polygon3>& polygons, std::span<const glm::dvec3> ring,
+                              const glm::dvec3& normal)
+{
+    std::vector<Polygon3> left;
+    for (const Polygon3& polygon : polygons) {
+        std::vector<Polygon3> outside;
+        if (clipInside({polygon}, ring, normal, &outside).empty())
+            left.push_back(polygon); // whole, not in the pieces that the ring's edges cut
+        else
+            for (Polygon3& part : outside) left.push_back(std::move(part));
+    }
+    return left;
 }
 
 class HiddenSearch
@@ -87,7 +114,7 @@ private:
         for (u32 c = begin; c < end; ++c) {
             const PatchCell& cell = cells_.cells[c];
             const bool given = shapeOf(c).op == ShapeOp::Group || shapeOf(c).sourceFace != kNoIndex;
-            planes.push_back({isFront(c) ? cell.normal : -cell.normal, cell.point, given || cell.covered, 0});
+            planes.push_back({isFront(c) ? cell.normal : -cell.normal, cell.point, given, 0});
         }
         for (std::vector<u32>& group : groupByPlane(planes)) {
             for (u32& member : group) member += begin;
@@ -126,27 +153,57 @@ private:
             std::vector<u32>& others = open[flat.front ? 0 : 1];
             std::erase_if(others, [&](u32 k) { return flats[k].high.x <= flat.low.x; });
             for (const u32 k : others)
-                if (flats[k].low.y < flat.high.y && flats[k].high.y > flat.low.y) meet(flat, flats[k]);
+                if (flats[k].low.y < flat.high.y && flats[k].high.y > flat.low.y) meet(flats, i, k);
             open[flat.front ? 1 : 0].push_back(i);
         }
         for (const Flat& flat : flats)
-            if (flat.hidden >= kHiddenShare * cells_.cells[flat.cell].area) hidden_.push_back(flat.cell);
+            if (isHidden(flat, flats)) hidden_.push_back(flat.cell);
     }
 
-    void meet(Flat& a, Flat& b) const
+    bool isHidden(const Flat& flat, std::span<const Flat> flats) const
     {
+        const double total = cells_.cells[flat.cell].area;
+        if (flat.hidden < kHiddenShare * total) return false;
+        if (flat.by.size() == 1) return true;
+        std::vector<Polygon3> left;
+        for (u32 k = 0; k < cells_.pieces[flat.cell].polygonCount; ++k) left.push_back(polygonOf(flat.cell, k));
+        for (const u32 other : flat.by) {
+            const u32 c = flats[other].cell;
+            for (u32 k = 0; k < cells_.pieces[c].polygonCount; ++k) {
+                const Polygon3& polygon = polygonOf(c, k);
+                if (isConvex(polygon, cells_.cells[c].normal)) {
+                    left = without(left, polygon.outer, cells_.cells[c].normal);
+                    continue;
+                }
+                Ring3 corners = polygon.outer;
+                for (const Ring3& hole : polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
+                for (const auto& [x, y, z] : triangulate(polygon))
+                    left = without(left, Ring3{corners[x], corners[y], corners[z]}, cells_.cells[c].normal);
+            }
+            if (sumOfAreas(left) <= (1.0 - kHiddenShare) * total) return true;
+        }
+        return false;
+    }
+
+    /// Adds what each of two hides of the other; both are numbers in `flats`.
+    void meet(std::vector<Flat>& flats, u32 first, u32 second) const
+    {
+        Flat &a = flats[first], &b = flats[second];
+        double sum = 0.0;
         for (u32 i = 0; i < cells_.pieces[a.cell].polygonCount; ++i)
             for (u32 k = 0; k < cells_.pieces[b.cell].polygonCount; ++k) {
                 const Polygon3 &p = polygonOf(a.cell, i), &q = polygonOf(b.cell, k);
                 const glm::dvec3 &n = cells_.cells[a.cell].normal, &m = cells_.cells[b.cell].normal;
-                double shared = 0.0;
                 if (isConvex(p, n))
-                    shared = areaInside(q, p, n);
+                    sum += sumOfAreas(clipInside({q}, p.outer, n, nullptr));
                 else if (isConvex(q, m))
-                    shared = areaInside(p, q, m);
-                a.hidden += shared;
-                b.hidden += shared;
+                    sum += sumOfAreas(clipInside({p}, q.outer, m, nullptr));
             }
+        if (sum <= 0.0) return;
+        a.hidden += sum;
+        b.hidden += sum;
+        a.by.push_back(second);
+        b.by.push_back(first);
     }
 
     const ShapeTree& shapes_;

@@ -2,7 +2,6 @@
 #include "city/model/patch_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,6 +20,7 @@ constexpr double kMinArea = 1e-8;     // m2: less is no surface
 constexpr double kSliverWidth = 0.05; // m
 constexpr double kSliverArea = 0.01;  // m2
 constexpr double kTouch = 1e-3;       // m: gap between neighbours, and least length of their common side
+constexpr double kSliverGrowth = 0.2; // m: a neighbour takes slivers up to this size whatever the limit
 constexpr double kSizeSlack = 1e-6;   // m
 constexpr double kAreaSlack = 1e-6;   // relative, and m2
 constexpr double kWellFilled = 0.7;   // share of its box that a merged patch longer than the limit has
@@ -56,6 +56,13 @@ bool touch(const Box& a, const Box& b)
     return overlap.x >= -kTouch && overlap.y >= -kTouch && (along(0) || along(1));
 }
 
+/// Length along which boxes that touch meet, m.
+double commonSide(const Box& a, const Box& b)
+{
+    const glm::dvec2 overlap = glm::min(a.high, b.high) - glm::max(a.low, b.low);
+    return std::max(overlap.x, overlap.y);
+}
+
 class CellMaker
 {
 public:
@@ -66,6 +73,13 @@ public:
         const size_t count = shapes_.shapes.size();
         open_.resize(count);
         out_.isSolid.assign(count, 0);
+        size_t leaves = 0;
+        for (const Shape& shape : shapes_.shapes) leaves += shape.polygonCount > 0 ? 1 : 0;
+        // Nearly what there will be: growing step by step would hold everything twice.
+        out_.pieceRow.reserve(count + 1);
+        out_.pieces.reserve(leaves + leaves / 8);
+        out_.cells.reserve(leaves + leaves / 8);
+        out_.polygonRefs.reserve(shapes_.polygons.size());
         for (u32 s = 0; s < count; ++s) {
             out_.pieceRow.push_back(u32(out_.pieces.size()));
             makePieces(s);
@@ -117,32 +131,25 @@ private:
     void addPlane(u32 s, std::span<const u32> refs, const glm::dvec3& normal)
     {
         const Shape& shape = shapes_.shapes[s];
-        const bool cuts = shape.asset == kNoIndex && shape.sourceFace == kNoIndex &&
-                          (options_.stripHeight > 0.0 || options_.maxPatch > 0.0);
-        std::array<u32, 2> count{1, 1};
         const PlaneFrame frame = planeFrame(normal);
-        if (cuts) {
+        u32 count = 1;
+        if (shape.asset == kNoIndex && shape.sourceFace == kNoIndex && options_.stripHeight > 0.0 &&
+            std::abs(normal.z) < kSteep) {
             Box box;
             for (const u32 ref : refs)
                 for (const glm::dvec3& q : shapes_.polygons[ref].outer)
                     box.add({glm::dot(q, frame.u), glm::dot(q, frame.v)});
-            const auto parts = [](double length, double most) {
-                return u32(std::clamp(std::ceil(length / most - 1e-9), 1.0, double(kMostStrips)));
-            };
             const glm::dvec2 size = box.size();
-            if (options_.maxPatch > 0.0) count = {parts(size.x, options_.maxPatch), parts(size.y, options_.maxPatch)};
-            if (options_.stripHeight > 0.0 && std::abs(normal.z) < kSteep && size.x >= kWide &&
-                size.y > std::max(options_.mergeSize, options_.stripHeight))
-                count[1] = std::max(count[1], parts(size.y, options_.stripHeight));
+            if (size.x >= kWide && size.y > std::max(options_.mergeSize, options_.stripHeight))
+                count = u32(std::clamp(std::ceil(size.y / options_.stripHeight - 1e-9), 1.0, double(kMostStrips)));
         }
-        if (count[0] * count[1] == 1) {
+        if (count == 1) {
             addPiece(s, refs, normal);
             return;
         }
         std::vector<Polygon3> polygons;
         for (const u32 ref : refs) polygons.push_back(shapes_.polygons[ref]);
-        for (const std::vector<Polygon3>& row : cutIntoStrips(polygons, frame.v, count[1]))
-            for (std::vector<Polygon3>& part : cutIntoStrips(row, frame.u, count[0])) addCutPiece(s, part, normal);
+        for (std::vector<Polygon3>& strip : cutIntoStrips(polygons, frame.v, count)) addCutPiece(s, strip, normal);
     }
 
     void addCutPiece(u32 s, std::vector<Polygon3>& polygons, const glm::dvec3& normal)
@@ -248,8 +255,15 @@ private:
         for (size_t i = 0; i < group.size(); ++i) {
             size_t with = kept;
             const size_t oldest = kept > kLookBack ? kept - kLookBack : 0;
-            for (size_t k = kept; k-- > oldest && with == kept;)
-                if (mayMerge(group[k], boxes_[k], group[i], boxes_[i], face)) with = k;
+            double longest = -1.0;
+            for (size_t k = kept; k-- > oldest;) {
+                if (!mayMerge(group[k], boxes_[k], group[i], boxes_[i], face)) continue;
+                const double side = commonSide(boxes_[k], boxes_[i]);
+                if (side <= longest) continue;
+                with = k;
+                longest = side;
+                if (!out_.cells[group[i]].sliver) break; // Only slivers choose.
+            }
             if (with < kept) {
                 merge(s, group[with], group[i]);
                 boxes_[with] = unionOf(boxes_[with], boxes_[i]);
@@ -274,7 +288,12 @@ private:
         if (out_.cells[a].area + out_.cells[b].area > size.x * size.y * (1.0 + kAreaSlack) + kAreaSlack) return false;
         const u32 openings = out_.cells[a].openings + out_.cells[b].openings;
         // Walls take slivers at once; openings only those that no wall of the face has taken.
-        if ((out_.cells[a].sliver || out_.cells[b].sliver) && (openings == 0 || face)) return true;
+        if ((out_.cells[a].sliver || out_.cells[b].sliver) && (openings == 0 || face)) {
+            // A ledge along the whole facade is not one of its bays.
+            const glm::dvec2 own = (out_.cells[a].area >= out_.cells[b].area ? boxA : boxB).size();
+            const double most = std::max(options_.mergeSize, kSliverGrowth) + kSizeSlack;
+            return !glm::any(glm::greaterThan(size - own, glm::dvec2(most)));
+        }
         // A side that is longer already may stay so if the two go well together: strips of a wall, not a comb.
         const glm::dvec2 longest = glm::max(glm::max(boxA.size(), boxB.size()), glm::dvec2(options_.mergeSize));
         if (glm::any(glm::greaterThan(size, longest + kSizeSlack))) return false;

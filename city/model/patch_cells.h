@@ -24,8 +24,6 @@ struct NodeOptions
     /// Steep leaves (more than 60 degrees, at least 1 m wide) higher than `mergeSize` are cut into horizontal strips of
     /// equal height, at most this, m: a floor (one value a facade is wrong in deep streets). 0: not cut.
     double stripHeight = 3.5;
-    /// Longest side of a patch without assets, m; longer leaves are cut into equal parts along it. 0: no limit.
-    double maxPatch = 0.0;
 };
 
 /// Polygons of one leaf in one plane: what is drawn with one albedo.
@@ -73,9 +71,11 @@ struct PatchCells
 
 /// Groups the leaves of a derivation into cells. From the leaves upwards, under each shape up to the face of a solid,
 /// coplanar cells that touch become one: walls of one surface, and with PatchMode::Bay one opening with the walls
-/// around it, within `mergeSize`; slivers (narrower than 5 cm or less than 0.01 m2) go
-/// to any neighbour. Covered and free cells never mix; what hiddenCells finds is covered too. A cell that takes others
-/// keeps its place in the order.
+/// around it, within `mergeSize`; slivers (narrower than 5 cm or less than 0.01 m2) go to a neighbour of any material,
+/// that with the longest common side, unless its own side would grow by more than `mergeSize` (or 20 cm, if that is
+/// more). A cell is compared with the ten before it in the order of derivation, four times over. Cells touch if their
+/// bounding rectangles do, which for cells that are no rectangles may be across a gap. Covered and free cells never
+/// mix; what hiddenCells finds is covered too. A cell that takes others keeps its place in the order.
 PatchCells makeCells(const ShapeTree& shapes, const NodeOptions& options);
 
 } // namespace helio

@@ -18,8 +18,9 @@ struct PlaneItem
 };
 
 /// Groups of items that lie in one plane: normals within 0.26 degrees (1 - cos < 1e-5) and less than 2 mm apart. The
-/// first item of a group defines its plane and takes all later ones that lie in it; groups come in the order of their
-/// first items, items in their own order. O(n log n) unless very many different planes lie within millimetres.
+/// first item of a group defines its plane and takes all later ones that lie in it; groups come in
+/// the order of their first items, items in their own order. O(n log n) unless very many different planes lie within
+/// millimetres.
 std::vector<std::vector<u32>> groupByPlane(std::span<const PlaneItem> items);
 
 } // namespace helio

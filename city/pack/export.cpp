@@ -6,6 +6,7 @@
 
 #include "city/base/file.h"
 #include "city/model/node_tree.h"
+#include "city/pack/patch_scene.h"
 #include "city/pack/single_ring.h"
 
 namespace helio {
@@ -75,17 +76,6 @@ private:
     std::vector<u32> rootsOf_; ///< planar roots counted so far, slot 0 = ground, slot i + 1 = building i
 };
 
-std::vector<Ring3> ringsOf(const TileView& tile, u32 node)
-{
-    std::vector<Ring3> rings;
-    for (u32 r = tile.outlineRows[node]; r < tile.outlineRows[node + 1]; ++r) {
-        Ring3& ring = rings.emplace_back();
-        for (u32 p = tile.outlineRings[r] >> 1; p < tile.outlineRings[r + 1] >> 1; ++p)
-            ring.push_back(glm::dvec3(tile.outlinePoints[p]) + glm::dvec3(tile.outlineRests[p]));
-    }
-    return rings;
-}
-
 void appendFace(std::string& obj, const Ring3& ring)
 {
     for (const glm::dvec3& q : ring) {
@@ -118,7 +108,7 @@ SurfaceText exportSurfaces(const Pack& pack)
     PatchPaths paths(tile);
     for (u32 i = 0; i < pack.patchCount(); ++i) {
         const gpu::PatchRecord& patch = tile.patches[i];
-        appendFace(text.obj, joinRings(ringsOf(tile, i), patch.normal));
+        appendFace(text.obj, joinRings(outlineRings(tile, i), patch.normal));
 
         const PatchPaths::Path path = paths.next(i);
         text.csv += patch.surface == gpu::kNone ? "surface" : kinds[patch.surface];

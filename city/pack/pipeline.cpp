@@ -198,7 +198,7 @@ private:
     void buildTree()
     {
         clock_.begin("nodes");
-        build_ = buildNodes(shapes_, summaries_, options_.nodes);
+        build_ = buildNodes(std::move(shapes_), summaries_, options_.nodes);
         shapes_ = {};
     }
 
@@ -229,6 +229,7 @@ private:
         index.seed = options_.light.seed;
         nlohmann::ordered_json settings = {{"epsilon", options_.light.formFactorEpsilon},
                                            {"rays_per_patch", options_.light.raysPerPatch},
+                                           {"sky_patches", options_.light.skyPatches},
                                            {"rays_per_link", options_.light.raysPerLink},
                                            {"cutoff_m", options_.light.cutoff},
                                            {"default_height_m", options_.import.defaultHeight},

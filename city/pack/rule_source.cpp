@@ -3,6 +3,7 @@
 
 #include "city/base/file.h"
 #include "city/base/hash.h"
+#include "city/grammar/limits.h"
 #include "city/grammar/program.h"
 #include "city/pack/embedded_files.h"
 
@@ -23,8 +24,17 @@ Result<std::string> shippedText(const std::string& name)
     return std::string(reinterpret_cast<const char*>(file->bytes.data()), file->bytes.size());
 }
 
+/// A device or a pipe has no end that could be waited for, and no rule file is as large as that of the limit.
 Result<std::string> fileText(const std::string& path)
 {
+    std::error_code failure;
+    if (!std::filesystem::exists(path, failure) || std::filesystem::is_directory(path, failure))
+        return readTextFile(path);
+    if (!std::filesystem::is_regular_file(path, failure))
+        return Error{concat(path, ": is no regular file; copy the rules into one")};
+    const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+    if (bytes > cga::kMaxSourceBytes)
+        return Error{concat(path, ": ", bytes, " bytes; a rule file has at most ", cga::kMaxSourceBytes)};
     return readTextFile(path);
 }
 

@@ -78,6 +78,9 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
              makeBuffer(context, "links",
                         std::span<const gpu::LinkPairRecord>(links->pairs).subspan(page.pairFirst, page.pairCount))});
 
+    if (tile.skyColumns.size_bytes() > context.facts().maxStorageBufferBytes)
+        return Error{concat(tile.skyColumns.size(), " sky links are more than one buffer of this device holds (",
+                            context.facts().maxStorageBufferBytes, " bytes); bake with fewer --sky-patches")};
     t.skyPatches.assign(tile.skyPatches.begin(), tile.skyPatches.end());
     t.skyRows = makeBuffer(context, "sky rows", tile.skyRows);
     t.skyColumns = makeBuffer(context, "sky columns", tile.skyColumns);

@@ -145,7 +145,11 @@ void LightSolver::solveSun(const LightState& light)
 
 void LightSolver::solveSky(const LightState& light)
 {
-    const Buffer radiance = makeBuffer(context_, "sky radiance", uniformSky(tile_.skyPatches, light.dhi));
+    std::vector<glm::vec4> sky(light.skyRadiance.size());
+    std::transform(light.skyRadiance.begin(), light.skyRadiance.end(), sky.begin(),
+                   [](float value) { return glm::vec4(value); });
+    const Buffer radiance =
+        makeBuffer(context_, "sky radiance", sky.empty() ? uniformSky(tile_.skyPatches, light.dhi) : sky);
     FrameGraph graph("sky");
     (void)addSkyEnergy(graph, tile_, graph.import(radiance), graph.import(sky_));
     run(graph);
@@ -192,7 +196,7 @@ const SolveReport& LightSolver::solve(const LightState& light)
     report_.stages.clear();
     const bool sunMoved = !solved_ || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni;
     if (sunMoved) solveSun(light);
-    if (!solved_ || solved_->dhi != light.dhi) solveSky(light);
+    if (!solved_ || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance) solveSky(light);
     sweep(light, solved_.has_value() && options_.solve.warmStart);
     solved_ = light;
     solvedWith_ = options_.solve;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "city/base/types.h"
 
@@ -11,7 +12,8 @@ struct LightState
 {
     glm::dvec3 towardsSun{0.0, 0.0, 1.0}; ///< unit, tile frame
     double dni = 800.0;                   ///< W/m2, >= 0; 0 also when the sun is below the horizon
-    double dhi = 120.0;                   ///< W/m2, >= 0, of the uniform sky
+    double dhi = 120.0;                   ///< W/m2, >= 0, of the sky
+    std::vector<float> skyRadiance;       ///< W/m2/sr, one a sky patch; empty = the uniform sky of that dhi
     bool emission = true;                 ///< patches emit their own light
 
     /// Is there sunlight? A sun at or below the horizon gives none.

@@ -133,10 +133,12 @@ void Renderer::setSun(double azimuthDeg, double elevationDeg, double dni)
     impl_->light.dni = dni;
 }
 
-void Renderer::setSky(double dhi)
+void Renderer::setSky(double dhi, std::vector<float> radiance)
 {
     HELIO_CHECK(std::isfinite(dhi) && dhi >= 0.0, "DHI ", dhi);
+    HELIO_CHECK(radiance.empty() || radiance.size() == impl_->tile.skyPatches.size(), radiance.size(), " radiances");
     impl_->light.dhi = dhi;
+    impl_->light.skyRadiance = std::move(radiance);
 }
 
 void Renderer::setEmission(bool on)

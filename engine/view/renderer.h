@@ -90,7 +90,8 @@ public:
 
     /// Azimuth clockwise from true north, elevation above the horizon, degrees; dni W/m2.
     void setSun(double azimuthDeg, double elevationDeg, double dni);
-    void setSky(double dhi);
+    /// dhi W/m2. `radiance`: W/m2/sr of each sky patch of the pack, which must add up to dhi; none = uniform.
+    void setSky(double dhi, std::vector<float> radiance = {});
     void setEmission(bool on);
     SolveOptions& solveOptions();
     const LightState& light() const;

@@ -11,9 +11,10 @@
 #include <functional>
 #include <string>
 
+#include "city/light/error_metrics.h"
 #include "tests/accuracy/csv_table.h"
-#include "tests/accuracy/error_metrics.h"
 
+using namespace helio;
 using namespace helio::test;
 
 namespace {

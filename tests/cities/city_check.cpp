@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derives whole cities and checks what must hold of every light hierarchy; prints one block for each rule file and
-// city.
+// Imports and derives whole cities and checks what must hold of every light hierarchy; prints one block for each city
+// and rule file. Lines that begin with "census", "note" and "result" are for tools/check_cities.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -8,12 +8,13 @@
 #include <sys/resource.h>
 #include <vector>
 
-#include "city/base/file.h"
 #include "city/grammar/derive.h"
-#include "city/layout/import.h"
 #include "city/layout/ground.h"
+#include "city/layout/import.h"
 #include "city/pack/asset_library.h"
+#include "city/pack/rule_source.h"
 #include "tests/cities/tree_audit.h"
+#include "tests/cities/tree_hash.h"
 
 using namespace helio;
 
@@ -24,6 +25,9 @@ struct Options
     std::vector<std::filesystem::path> rules, cities;
     std::vector<PatchMode> modes{PatchMode::Piece, PatchMode::Bay};
     bool unmerged = false, inwards = true, ground = true;
+    bool census = false;  ///< print what the import counted and did
+    bool compare = false; ///< derive with 1, 2 and 3 threads: all must be equal
+    ImportOptions import;
 };
 
 class Clock
@@ -42,9 +46,19 @@ double peakMiB()
     return double(usage.ru_maxrss) / 1024.0;
 }
 
-/// Builds and audits one hierarchy; false if something is wrong with it.
-bool checkNodes(const char* name, const ShapeTree& shapes, const std::vector<AssetSummary>& assets,
-                const NodeOptions& nodeOptions, bool inwards)
+/// What the checks of one city and rule file add up to.
+struct Findings
+{
+    u32 patches = 0;
+    double buildSeconds = 0.0;
+    u64 faults = 0, inwards = 0;
+    double ledger = 0.0;
+    bool good = true;
+};
+
+/// Builds and audits one hierarchy.
+void checkNodes(const char* name, const ShapeTree& shapes, const std::vector<AssetSummary>& assets,
+                const NodeOptions& nodeOptions, bool inwards, Findings& findings)
 {
     const Clock clock;
     const NodeTreeBuild build = buildNodes(shapes, assets, nodeOptions);
@@ -78,19 +92,21 @@ bool checkNodes(const char* name, const ShapeTree& shapes, const std::vector<Ass
     for (const auto& [rule, count] : audit.inwardsByName)
         std::printf("            %llu of '%s' face inwards\n", static_cast<unsigned long long>(count), rule.c_str());
     for (const std::string& line : audit.examples) std::printf("            %s\n", line.c_str());
-    return audit.good() && build.areaDefect <= 1e-5;
+    std::printf("            hash %016llx\n", static_cast<unsigned long long>(hashOf(build)));
+    findings.patches = tree.patchCount();
+    findings.buildSeconds += seconds;
+    findings.faults += audit.notFinite + audit.noArea + audit.badNormal + audit.badOutline + audit.badSum +
+                       audit.badLink + audit.mixedCovered;
+    findings.inwards += audit.facesInwards;
+    findings.ledger = std::max({findings.ledger, audit.areaLedger, audit.rhoLedger, build.areaDefect});
+    findings.good = findings.good && audit.good() && build.areaDefect <= 1e-5;
 }
 
-Result<bool> checkCity(const Options& options, const std::filesystem::path& rulesPath,
-                       const std::filesystem::path& city)
+Result<bool> checkRules(const Options& options, const std::filesystem::path& rulesPath, const Layout& layout,
+                        const std::filesystem::path& city)
 {
-    Result<std::string> text = readTextFile(rulesPath);
-    if (!text) return text.error();
-    const Result<RuleSet> rules = parseRules(*text, rulesPath.string());
-    if (!rules) return rules.error();
-    Result<Layout> layout = importCity(city);
-    if (!layout) return layout.error();
-    if (options.ground) addGround(*layout);
+    const Result<RuleSource> source = readRules(rulesPath, "");
+    if (!source) return source.error();
     AssetLibrary library({rulesPath.parent_path() / "assets", rulesPath.parent_path() / ".." / "assets"});
     DeriveOptions derivation;
     derivation.assetBox = [&](const std::string& name) -> Result<AssetBox> {
@@ -99,11 +115,20 @@ Result<bool> checkCity(const Options& options, const std::filesystem::path& rule
         return AssetBox{(*mesh)->boxMin, (*mesh)->boxMax};
     };
     const Clock clock;
-    Result<Derivation> derived = derive(*rules, layout->footprints, derivation);
+    Result<Derivation> derived = derive(source->rules, layout.footprints, derivation);
     if (!derived) return derived.error();
     const double seconds = clock.seconds();
+    Findings findings;
+    const u64 hash = hashOf(derived->shapes);
+    for (u32 jobs = 1; options.compare && jobs <= 3; ++jobs) {
+        derivation.jobs = jobs;
+        const Result<Derivation> again = derive(source->rules, layout.footprints, derivation);
+        if (again && hashOf(again->shapes) == hash) continue;
+        std::printf("  with %u threads the derivation is another one\n", jobs);
+        findings.good = false;
+    }
     ShapeTree& shapes = derived->shapes;
-    appendGround(shapes, *layout);
+    appendGround(shapes, layout);
     std::vector<AssetSummary> assets;
     for (const std::string& name : shapes.assets) {
         Result<const AssetMesh*> mesh = library.find(name);
@@ -114,23 +139,53 @@ Result<bool> checkCity(const Options& options, const std::filesystem::path& rule
     for (const Shape& shape : shapes.shapes) leaves += shape.polygonCount > 0 || shape.asset != kNoIndex ? 1 : 0;
     const RoofCounts& roofs = derived->counts.roofs;
     std::printf("%s on %s: buildings %zu, shapes %zu, leaves %zu, derived in %.2f s; roofs %llu, simpler %llu, flat "
-                "%llu; peak %.0f MiB\n",
-                rulesPath.filename().c_str(), city.c_str(), layout->footprints.size(), shapes.shapes.size(), leaves,
+                "%llu; hash %016llx; peak %.0f MiB\n",
+                rulesPath.filename().c_str(), city.c_str(), layout.footprints.size(), shapes.shapes.size(), leaves,
                 seconds, static_cast<unsigned long long>(roofs.roofs), static_cast<unsigned long long>(roofs.parts),
-                static_cast<unsigned long long>(roofs.flat), peakMiB());
-    bool good = 100 * (roofs.parts + roofs.flat) <= roofs.roofs;
-    if (!good) std::printf("  more than 1 %% of the roofs had to be simplified\n");
+                static_cast<unsigned long long>(roofs.flat), static_cast<unsigned long long>(hash), peakMiB());
+    for (const std::string& warning : derived->warnings) std::printf("  %s\n", warning.c_str());
+    if (100 * (roofs.parts + roofs.flat) > roofs.roofs) {
+        std::printf("  more than 1 %% of the roofs had to be simplified\n");
+        findings.good = false;
+    }
     if (options.unmerged) {
         NodeOptions plain;
         plain.mergeSize = plain.stripHeight = 0.0;
-        good &= checkNodes("unmerged", shapes, assets, plain, false);
+        checkNodes("unmerged", shapes, assets, plain, false, findings);
     }
     for (const PatchMode mode : options.modes) {
         NodeOptions nodeOptions;
         nodeOptions.patch = mode;
-        good &= checkNodes(mode == PatchMode::Bay ? "bay" : "piece", shapes, assets, nodeOptions, options.inwards);
+        checkNodes(mode == PatchMode::Bay ? "bay" : "piece", shapes, assets, nodeOptions, options.inwards, findings);
     }
-    std::printf("  peak %.0f MiB\n", peakMiB());
+    std::printf("result %s buildings=%zu leaves=%zu patches=%u seconds=%.2f peak_mib=%.0f roofs=%llu fallbacks=%llu "
+                "faults=%llu inwards=%llu ledger=%.1e %s\n",
+                rulesPath.filename().c_str(), layout.footprints.size(), leaves, findings.patches,
+                seconds + findings.buildSeconds, peakMiB(), static_cast<unsigned long long>(roofs.roofs),
+                static_cast<unsigned long long>(roofs.parts + roofs.flat),
+                static_cast<unsigned long long>(findings.faults), static_cast<unsigned long long>(findings.inwards),
+                findings.ledger, findings.good ? "good" : "WRONG");
+    return findings.good;
+}
+
+/// Imports a city and checks it with all rule files.
+Result<bool> checkCity(const Options& options, const std::filesystem::path& city)
+{
+    Result<Layout> layout = importCity(city, options.import);
+    if (!layout) return layout.error();
+    if (options.census) {
+        for (const auto& [name, count] : layout->counts) std::printf("census %s = %u\n", name.c_str(), count);
+        for (const std::string& note : layout->notes) std::printf("note %s\n", note.c_str());
+        for (const Footprint& footprint : layout->footprints) std::printf("kept %s\n", footprint.id.c_str());
+    }
+    if (options.ground) addGround(*layout);
+    bool good = true;
+    for (const std::filesystem::path& rules : options.rules) {
+        const Result<bool> result = checkRules(options, rules, *layout, city);
+        if (!result) std::printf("%s\n", result.error().message.c_str());
+        good = good && result && *result;
+        std::fflush(stdout);
+    }
     return good;
 }
 
@@ -147,25 +202,30 @@ int main(int argc, char** argv)
             options.inwards = false;
         else if (word == "--no-ground")
             options.ground = false;
+        else if (word == "--census")
+            options.census = true;
+        else if (word == "--jobs")
+            options.compare = true;
+        else if (word == "--lod2")
+            options.import.lod2 = true;
+        else if (word == "--streets" && i + 1 < argc)
+            options.import.streets = argv[++i];
         else if (word == "--piece" || word == "--bay")
             options.modes = {word == "--bay" ? PatchMode::Bay : PatchMode::Piece};
         else
             (word.ends_with(".cga") ? options.rules : options.cities).push_back(word);
     }
-    if (options.rules.empty() || options.cities.empty()) {
-        std::fputs("usage: city_check [--piece|--bay] [--unmerged] [--no-inwards] [--no-ground] RULES.cga... "
-                   "CITY.geojson...\n",
+    if (options.cities.empty() || (options.rules.empty() && !options.census)) {
+        std::fputs("usage: city_check [--piece|--bay] [--unmerged] [--no-inwards] [--no-ground] [--jobs] [--lod2]\n"
+                   "                  [--streets STREETS.geojson] [--census] RULES.cga... CITY...\n",
                    stderr);
         return 1;
     }
     bool good = true;
-    for (const std::filesystem::path& rules : options.rules) {
-        for (const std::filesystem::path& city : options.cities) {
-            const Result<bool> result = checkCity(options, rules, city);
-            if (!result) std::printf("%s\n", result.error().message.c_str());
-            good = good && result && *result;
-            std::fflush(stdout);
-        }
+    for (const std::filesystem::path& city : options.cities) {
+        const Result<bool> result = checkCity(options, city);
+        if (!result) std::printf("%s\n", result.error().message.c_str());
+        good = good && result && *result;
     }
     std::puts(good ? "all good" : "NOT GOOD");
     return good ? 0 : 1;

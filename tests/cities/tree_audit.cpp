@@ -18,6 +18,7 @@ namespace {
 constexpr size_t kMostExamples = 8;
 constexpr u32 kRays = 24;
 constexpr double kLevel = 0.95; // |normal.z| of a level face
+constexpr double kLift = 1e-3;  // m: between faces that meet at an acute angle there is little room
 
 bool isFinite(const glm::dvec3& v)
 {
@@ -64,7 +65,7 @@ bool facesInwards(const NodeTree& part, const Visibility& visibility, u32 patch)
             if (glm::dot(direction, normal) <= 0.0) continue;
         }
         ++rays;
-        const glm::dvec3 from = visibility.pointOnPatch(patch, x[2], x[3]) + 0.01 * normal;
+        const glm::dvec3 from = visibility.pointOnPatch(patch, x[2], x[3]) + kLift * normal;
         const RayHit hit = visibility.trace(from, normal, direction);
         if (hit.patch != kNoIndex && !hit.front) ++backs;
     }

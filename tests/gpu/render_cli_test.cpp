@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The built heliopolis-render and heliopolis-bench, run as a user runs them: bad input gets one line and exit code 1
 // and leaves nothing behind; good input gives the pictures and tables that were asked for, twice the same bytes.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -83,8 +84,61 @@ TEST_F(RenderCli, HelpSaysUnitsAndExitsWithZero)
         EXPECT_NE(result.out.find(word), std::string::npos) << word;
 }
 
+TEST_F(RenderCli, SunByDateAndSkyByModel)
+{
+    const std::string scene = HELIO_SCENES "/twobox";
+    const auto bake = [&](const std::string& more) {
+        const std::string line = concat(scene, ".obj --surfaces ", scene, ".csv --rays 1024 ", more);
+        EXPECT_EQ(test::runProgram(HELIO_BAKE, line, temp_.path()).exitCode, 0) << more;
+    };
+    bake("--lat 39.742476 --lon -105.1786 -o here");
+    bake("--sky-patches 1 -o plain");
+    const std::string quick = " --size 64x36 --samples 1 --sun-texel 0.25 ";
+
+    // The place and time of the solar position algorithm's test vector; the air is not, which moves the elevation.
+    const RunResult dated = render("here --date 2003-10-17 --time 12:30:30 --utc-offset -7 --sky perez --turbidity 3 "
+                                   "--sun-texel 0.25 --table dated.csv");
+    ASSERT_EQ(dated.exitCode, 0) << dated.err;
+    EXPECT_NE(bytesOf("dated.csv").find("azimuth 194.34 elevation 39.89"), std::string::npos);
+    EXPECT_NE(bytesOf("dated.csv").find("Perez sky"), std::string::npos);
+
+    // One uniform sky, whatever the dome; another sky only where the pack can tell its parts.
+    const auto sky = [&](const std::string& pack, const std::string& model) {
+        const RunResult run = render(concat(pack, quick, "--dni 0 --dhi 100 --sky ", model, " --table t.csv"));
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        std::vector<double> values;
+        const std::vector<std::string> lines = split(bytesOf("t.csv"), '\n');
+        const std::vector<std::string> header = lines.size() > 2 ? split(lines[1], ',') : std::vector<std::string>{};
+        const size_t column = size_t(std::find(header.begin(), header.end(), "E_sky_solar") - header.begin());
+        for (size_t i = 2; i < lines.size() && column < header.size(); ++i)
+            values.push_back(std::stod(split(lines[i], ',')[column]));
+        return values;
+    };
+    const std::vector<double> parts = sky("here", "uniform"), whole = sky("plain", "uniform");
+    const std::vector<double> overcast = sky("here", "cie:16");
+    ASSERT_EQ(parts.size(), whole.size());
+    ASSERT_EQ(parts.size(), overcast.size());
+    ASSERT_FALSE(parts.empty());
+    double brighter = 0.0, darker = 0.0;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        EXPECT_NEAR(parts[i], whole[i], 3e-4);
+        brighter = std::max(brighter, overcast[i] - parts[i]);
+        darker = std::max(darker, parts[i] - overcast[i]);
+    }
+    EXPECT_GT(darker, 5.0) << "walls see the dark part of an overcast sky";
+    EXPECT_LT(brighter, 10.0);
+    expectRefusal(concat("plain --sky cie:16", quick, "-o a.png"), "bake it with --sky-patches");
+}
+
 TEST_F(RenderCli, RefusesBadUsage)
 {
+    expectRefusal("p -o a.png --date 2026-06-21", "--time");
+    expectRefusal("p -o a.png --time 12:00", "--date");
+    expectRefusal("p -o a.png --date 2026-06-31 --time 12:00", "2026-06-31");
+    expectRefusal("p -o a.png --date 2026-06-21 --time 12:00 --sun 1,2", "--sun");
+    expectRefusal("p -o a.png --date 2026-06-21 --time 12:00 --turbidity 3 --dni 5", "--dni");
+    expectRefusal("p -o a.png --turbidity 3", "--date");
+    expectRefusal("p -o a.png --sky cie:17", "cie:17");
     expectRefusal("", "PACK");
     expectRefusal("p", "nothing to do");
     expectRefusal("p -o a.png --wobble", "--wobble");

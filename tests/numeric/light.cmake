@@ -2,15 +2,18 @@
 add_executable(light_test
     cities/tree_audit.cpp
     numeric/covered_test.cpp
+    numeric/factors_occluded_test.cpp
+    numeric/factors_test.cpp
     numeric/fixtures.cpp
     numeric/form_factor_test.cpp
     numeric/links_test.cpp
+    numeric/pair_fixtures.cpp
     numeric/paper_links_test.cpp
+    numeric/path_tracer_test.cpp
     numeric/scenes_test.cpp
     numeric/solver_test.cpp
     numeric/visibility_test.cpp
-    accuracy/csv_table.cpp
-    accuracy/error_metrics.cpp)
+    accuracy/csv_table.cpp)
 target_compile_definitions(light_test PRIVATE HELIO_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
 target_link_libraries(light_test PRIVATE city_light city_layout GTest::gtest_main)
 gtest_discover_tests(light_test PROPERTIES LABELS numeric)

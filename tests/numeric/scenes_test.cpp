@@ -10,11 +10,11 @@
 
 #include "city/layout/surfaces.h"
 #include "city/light/bake_light.h"
+#include "city/light/error_metrics.h"
 #include "city/light/reference_solver.h"
 #include "city/light/sun.h"
 #include "city/model/build_nodes.h"
 #include "tests/accuracy/csv_table.h"
-#include "tests/accuracy/error_metrics.h"
 #include "tests/numeric/fixtures.h"
 
 using namespace helio;

@@ -43,6 +43,13 @@ void PrintTo(const Screen& screen, std::ostream* out)
 
 constexpr const char* kCityCamera = "-30,-48,30,0,-2,4,45";
 constexpr const char* kStreetCamera = "-5,-34,1.7,-5,20,6,60";
+// Four plans of each rule file from the air, and one front from the street.
+constexpr const char* kMidriseCamera = "0,-92,52,0,0,4,48";
+constexpr const char* kMidriseStreet = "-52,-20,1.7,-35,-10,7,60";
+constexpr const char* kRowhouseCamera = "0,-60,30,0,0,1,48";
+constexpr const char* kRowhouseStreet = "-20,-20,1.7,-17,-6,4,60";
+constexpr const char* kTowerCamera = "20,-190,110,0,0,24,45";
+constexpr const char* kTowerStreet = "-50,-75,1.7,-42,-20,24,65";
 constexpr const char* kSceneCamera = "12,-27,54,48,51,4,38";
 
 const Screen kScreens[] = {
@@ -69,6 +76,12 @@ const Screen kScreens[] = {
      kDisplayTolerance},
     {"city_final_low_sun.png", TestPack::City, kCityCamera, 265, 9, {.samples = 2}, kDisplayTolerance},
     {"city_final_street.png", TestPack::City, kStreetCamera, 150, 55, {.samples = 2}, kDisplayTolerance},
+    {"midrise_plans.png", TestPack::Midrise, kMidriseCamera, 215, 38, {.samples = 2}, kDisplayTolerance},
+    {"midrise_street.png", TestPack::Midrise, kMidriseStreet, 215, 38, {.samples = 2}, kDisplayTolerance},
+    {"rowhouse_plans.png", TestPack::Rowhouse, kRowhouseCamera, 215, 38, {.samples = 2}, kDisplayTolerance},
+    {"rowhouse_street.png", TestPack::Rowhouse, kRowhouseStreet, 215, 38, {.samples = 2}, kDisplayTolerance},
+    {"tower_plans.png", TestPack::Tower, kTowerCamera, 215, 38, {.samples = 2}, kDisplayTolerance},
+    {"tower_street.png", TestPack::Tower, kTowerStreet, 215, 38, {.samples = 2}, kDisplayTolerance},
     {"scene_s_final.png", TestPack::SceneS, kSceneCamera, 110, 35, {.samples = 2}, kDisplayTolerance},
     {"scene_s_ids.png", TestPack::SceneS, kSceneCamera, 200, 40, {.mode = gpu::kModeId}, kIdentical},
 };

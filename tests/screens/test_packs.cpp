@@ -10,11 +10,12 @@
 namespace helio {
 namespace {
 
-constexpr std::array kAll{TestPack::City, TestPack::SceneS};
+constexpr std::array kAll{TestPack::City, TestPack::SceneS, TestPack::Midrise, TestPack::Rowhouse, TestPack::Tower};
+constexpr std::array kNames{"city", "scene_s", "midrise", "rowhouse", "tower"};
 
 std::filesystem::path folderOf(TestPack which)
 {
-    return std::filesystem::path(HELIO_SCREENS_PACKS) / (which == TestPack::City ? "city.pack" : "scene_s.pack");
+    return std::filesystem::path(HELIO_SCREENS_PACKS) / concat(kNames[size_t(which)], ".pack");
 }
 
 Status bakeOne(TestPack which)
@@ -23,9 +24,14 @@ Status bakeOne(TestPack which)
     BakeOptions options;
     if (which == TestPack::City) {
         options.input = root / "tests/screens/data/small_city.geojson";
-    } else {
+    } else if (which == TestPack::SceneS) {
         options.input = root / "tests/data/scenes/S.obj";
         options.surfaces = root / "tests/data/scenes/S.csv";
+    } else {
+        const std::string name = kNames[size_t(which)];
+        options.input = root / concat("tests/screens/data/", name, "_plans.geojson");
+        options.rules = root / concat("city/rules/", name, ".cga");
+        options.light.seed = 3;
     }
     const Result<BakeResult> baked = bake(options);
     if (!baked) return baked.error();

@@ -12,11 +12,14 @@ namespace helio {
 
 enum class TestPack
 {
-    City,  ///< tests/screens/data/small_city.geojson with the shipped rules
-    SceneS ///< tests/data/scenes/S.obj
+    City,     ///< tests/screens/data/small_city.geojson with the shipped rules
+    SceneS,   ///< tests/data/scenes/S.obj
+    Midrise,  ///< a box, an L, a courtyard and a triangle with midrise.cga
+    Rowhouse, ///< the same, smaller, with rowhouse.cga
+    Tower     ///< the same, larger, with tower.cga
 };
 
-/// Bakes both packs anew into the build folder. ctest does it once, before the tests that need them.
+/// Bakes all packs anew into the build folder. ctest does it once, before the tests that need them.
 Status bakeTestPacks();
 
 /// Folder of a pack; bakes it first if it is not there (a test that was started by hand).

@@ -89,8 +89,8 @@ TEST(Assets, ShippedPartsLoad)
             EXPECT_LE(mesh.rho[k], 0.95);
         }
     }
-    EXPECT_EQ(count, 15u);
-    EXPECT_EQ(triangles, 1736u);
+    EXPECT_EQ(count, 18u);
+    EXPECT_EQ(triangles, 2252u);
 }
 
 TEST(Assets, ReflectanceGoesByWhatTheFrontShows)

@@ -45,7 +45,7 @@ struct Scene
 };
 
 /// Every leaf a patch of its own.
-const NodeOptions kPlain{.patch = PatchMode::Piece, .mergeSize = 0.0, .stripHeight = 0.0, .maxPatch = 0.0};
+const NodeOptions kPlain{.patch = PatchMode::Piece, .mergeSize = 0.0, .stripHeight = 0.0};
 
 /// Invariants of every node tree (city/model/node_tree.h).
 void checkTree(const NodeTree& tree)
@@ -218,4 +218,36 @@ TEST(BuildNodes, TwentyThousandPlanesUnderOneShapeKeepTheirOrder)
         EXPECT_NEAR(first.area, 0.2, 1e-12);
         EXPECT_EQ(first.childCount, oneLeaf ? 0u : 2u);
     }
+}
+
+TEST(BuildNodes, TwentyThousandOverlaysHighAboveTheirTilesFindThem)
+{
+    // A roof of 3 x 3 m tiles in columns, each with a chimney 9 m above its middle: no patch is near enough for the
+    // search to stop early. The last chimney stands beside the roof, 1 m south of the first tile and 4 m above it.
+    constexpr u32 kSide = 141;
+    Scene scene;
+    scene.tree.assets = {"chimney.glb"};
+    const auto place = [&](u32 parent, const glm::dvec3& at) {
+        Shape& shape = scene.tree.shapes[scene.add(parent, ShapeOp::Insert)];
+        shape.asset = 0;
+        shape.placement = AssetPlacement::Overlay;
+        shape.worldFromAsset[3] = at;
+    };
+    const u32 roof = scene.add(0, ShapeOp::Component);
+    for (u32 x = 0; x < kSide; ++x) {
+        const u32 column = scene.add(roof, ShapeOp::Split);
+        for (u32 y = 0; y < kSide; ++y) {
+            const glm::dvec3 o(3.0 * x, 3.0 * y, 20);
+            const u32 tile = scene.add(column, ShapeOp::Split);
+            scene.addLeaf(tile, {{{o, o + glm::dvec3(3, 0, 0), o + glm::dvec3(3, 3, 0), o + glm::dvec3(0, 3, 0)}, {}}});
+            place(tile, o + glm::dvec3(1.5, 1.5, 9));
+        }
+    }
+    place(0, {1.5, -1, 24});
+    const std::vector<AssetSummary> assets{{glm::dvec4(0.5), glm::dvec3(0.0)}};
+    const NodeTreeBuild build = buildNodes(scene.tree, assets, kPlain);
+    ASSERT_EQ(build.tree.patchCount(), kSide * kSide);
+    ASSERT_EQ(build.instances.size(), size_t(kSide * kSide + 1));
+    for (u32 i = 0; i < kSide * kSide; ++i) ASSERT_EQ(build.instances[i].patch, i);
+    EXPECT_EQ(build.instances.back().patch, 0u);
 }

@@ -24,6 +24,16 @@ size_t count(const std::vector<Component>& components, RoofEdge kind)
     return n;
 }
 
+TEST(GrammarComponent, SelectorsNameThemselves)
+{
+    const auto d = mustDerive("Lot --> extrude(6) comp(f) { object.front : S | world.north : S | street.left : S | "
+                              "object.top : S | 5 : S | side : S }\nS --> report(comp.sel, 1) X.",
+                              {boxFootprint(10, 8, 6)});
+    const std::map<std::string, double> expected = {{"object.front", 1}, {"world.north", 1}, {"street.left", 1},
+                                                    {"object.top", 1},   {"other", 1},       {"side", 1}};
+    EXPECT_EQ(d.reports, expected);
+}
+
 TEST(GrammarComponent, EdgesOfAGabledPrism)
 {
     const Geometry prism = gabledPrism(8, 6, 3);

@@ -289,6 +289,10 @@ TEST(GrammarLimits, RunawayRulesEndWithAMessage)
     says("Lot --> split(x) { ~0 : A. }*", "no extent");
     says("Lot --> split(x) { 0.00001 : A. }*", "at most");
     says("Lot --> A(0)\nA(n) --> case n > 30 : X. else : A(n + 1) A(n + 1)", "more than");
+    // Work inside one term counts too: looking for a long text, copying many attributes.
+    says("d(x) = x + x\nB = d(d(d(d(d(d(d(d(d(d(d(\"aaaaaaaaaaaaaaaa\")))))))))))\nP = substring(B, 0, 16000) + \"b\"\n"
+         "F = find(B, P)\nLot --> report(\"n\", F + F + F + F + F + F + F + F) X.",
+         "steps");
     says("Lot --> extrude(1e9) X.", "grows beyond");
     says("Lot --> t(0, 1e300, 0) t(0, 1e300, 0) X.", "grows beyond");
     says("Lot --> extrude(3) extrude(3) X.", "solid");

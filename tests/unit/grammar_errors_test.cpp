@@ -37,7 +37,7 @@ TEST(GrammarErrors, ThreeMistakesAreThreeErrors)
               "t.cga:2:1: expected a value, found 'Lot'\n"
               "    Lot --> extrude(a) comp(f) { top : Roof | side : Wal(3) }\n"
               "    ^\n"
-              "t.cga:2:50: unknown operation or rule 'Wal': README.md in city/grammar lists what is read\n"
+              "t.cga:2:50: unknown operation or rule 'Wal': city/README.md lists what is read\n"
               "    Lot --> extrude(a) comp(f) { top : Roof | side : Wal(3) }\n"
               "                                                     ^\n"
               "t.cga:3:16: this string is never closed: end it with \" on the same line\n"

@@ -154,7 +154,7 @@ TEST(GrammarImport, RefusalsOfImports)
     EXPECT_EQ(refusal("import a : \"a.cga\"\nimport a : \"a.cga\"" + rest, reading({{"a.cga", "Run --> X."}})),
               "main.cga:2:1: two imports are called 'a'");
     EXPECT_EQ(refusal("import a : \"a.cga\"" + rest, reading({{"a.cga", "Run --> frob(1)"}})),
-              "a.cga:1:9: unknown operation or rule 'frob': README.md in city/grammar lists what is read");
+              "a.cga:1:9: unknown operation or rule 'frob': city/README.md lists what is read");
     EXPECT_EQ(refusal("import a : \"a.cga\"" + rest, reading({{"a.cga", "import m : \"main.cga\"\nRun --> X."}})),
               "a.cga:1:1: import \"main.cga\": the files import each other: main.cga -> a.cga -> main.cga");
 }

@@ -26,8 +26,17 @@ DeriveOptions plain()
                           {"pierW", 1.4},
                           {"shops", 0.0},
                           {"balconies", std::string("none")},
-                          {"windows", std::string("sash")}};
+                          {"windows", std::string("sash")},
+                          {"hoods", 0.0},
+                          {"roof", std::string("flat")}};
     return options;
+}
+
+double lowest(const Polygon3& polygon)
+{
+    double low = INFINITY;
+    for (const glm::dvec3& p : polygon.outer) low = std::min(low, p.z);
+    return low;
 }
 
 double reportOf(const Derivation& d, const std::string& key)
@@ -36,10 +45,9 @@ double reportOf(const Derivation& d, const std::string& key)
     return found == d.reports.end() ? 0.0 : found->second;
 }
 
-/// Area of walls, roof and ground-free outline: what the leaves of a building must add up to.
-double hullArea(const Footprint& f)
+double wallArea(const Footprint& f)
 {
-    double sum = area(f.outline);
+    double sum = 0.0;
     const auto walls = [&](const Ring2& ring) {
         for (size_t k = 0; k < ring.size(); ++k) sum += f.height * glm::distance(ring[k], ring[(k + 1) % ring.size()]);
     };
@@ -68,16 +76,21 @@ TEST(Midrise, WindowsOfAPlainBoxAgreeWithACountByHand)
     EXPECT_TRUE(d.warnings.empty()) << d.warnings[0];
 }
 
-// A neighbour covers the left side to 10 m. That is below its middle, so the floors decide: ground (0-4), 4-7.28
-// and 7.28-10.56 have their middles below 10 m and lose 4 + 5 + 5 windows; a neighbour of 10.5 m covers the whole wall,
-// which then loses 4 + 5 x 5.
+// A neighbour covers the left side to 10 m. Bays that it touches have no windows: ground (0-4), 4-7.28 and 7.28-10.56 lose
+// 4 + 5 + 5. One that is as high as the wall takes all: 4 + 5 x 5.
 TEST(Midrise, CoveredWallsAreBlank)
 {
     Footprint box = boxFootprint(18, 14, 21);
     cover(box, 3, 10);
     EXPECT_EQ(reportOf(mustDerive(midrise(), {box}, plain()), "windows"), 123 - 14);
-    cover(box, 3, 10.5);
+    cover(box, 3, 21);
     EXPECT_EQ(reportOf(mustDerive(midrise(), {box}, plain()), "windows"), 123 - 29);
+    // Only 5 of 14 m, from the front corner: each floor is pier, window, .. of 1.375 + 1.2 m, and of the windows that
+    // begin at 1.375, 3.95 and 6.525 m from a corner two are touched; the ground floor is mirrored by its door.
+    box.covered.at(3) = {{0.0, 5.0, 21.0}};
+    const double windows = reportOf(mustDerive(midrise(), {box}, plain()), "windows");
+    EXPECT_GE(windows, 123 - 5 * 2 - 2);
+    EXPECT_LE(windows, 123 - 5 * 2 - 1);
 }
 
 TEST(Midrise, ShopsAndBalconies)
@@ -111,14 +124,26 @@ TEST(Midrise, EveryShapeOfFootprintIsCoveredOnce)
             for (u64 seed = 0; seed < 3; ++seed) {
                 DeriveOptions options = unitAssets();
                 options.seed = seed;
+                options.attributes["roof"] = std::string("flat");
                 const Footprint footprint = footprintOf(outlines[k].first, height, outlines[k].second);
                 const Derivation d = mustDerive(midrise(), {footprint}, options);
-                EXPECT_NEAR(totalArea(d), hullArea(footprint), 1e-7 * hullArea(footprint))
-                    << "outline " << k << " height " << height;
                 EXPECT_TRUE(d.warnings.empty()) << d.warnings[0];
+                // Walls end at the height; above it are parapets of 0.7 m, which take the roof's place.
+                double walls = 0.0, level = 0.0, parapets = 0.0;
+                for (const Polygon3& polygon : d.shapes.polygons) {
+                    const glm::dvec3 normal = vectorArea(polygon);
+                    const double low = lowest(polygon);
+                    level += std::max(0.0, normal.z);
+                    if (low < height - 1e-6) walls += area(polygon);
+                    if (low > height + 0.6) parapets += normal.z;
+                }
+                EXPECT_NEAR(walls, wallArea(footprint), 1e-7 * walls) << "outline " << k << " height " << height;
+                // Setbacks and offsets are on a grid of 0.1 mm.
+                const double grid = 1e-4 * wallArea(footprint) / height;
+                EXPECT_NEAR(level, area(footprint.outline), grid) << "outline " << k << " height " << height;
                 // Closed but for the ground at z = 0, which adds nothing to the sum: every leaf looks outward.
-                EXPECT_NEAR(enclosedVolume(d), area(footprint.outline) * height,
-                            1e-7 * area(footprint.outline) * height);
+                const double volume = area(footprint.outline) * height + 0.7 * parapets;
+                EXPECT_NEAR(enclosedVolume(d), volume, grid * height) << "outline " << k << " height " << height;
             }
 }
 

@@ -136,9 +136,9 @@ TEST(GrammarParse, AllThreeSelectorSigns)
 TEST(GrammarParse, RefusalsNameThePlace)
 {
     EXPECT_EQ(errorOf("Lot --> extrude(5)\n  frobnicate(3) X."),
-              "t.cga:2:3: unknown operation or rule 'frobnicate': README.md in city/grammar lists what is read");
-    EXPECT_EQ(errorOf("Lot -->\n  extrude(9) comp(f) { top : scatter(surface, 30) { X. } }").substr(0, 57),
-              "t.cga:2:30: the operation 'scatter' is not supported: use");
+              "t.cga:2:3: unknown operation or rule 'frobnicate': city/README.md lists what is read");
+    EXPECT_EQ(errorOf("Lot -->\n  extrude(9) comp(f) { top : envelope(normal, 30) { X. } }").substr(0, 58),
+              "t.cga:2:30: the operation 'envelope' is not supported: use");
     EXPECT_EQ(errorOf("Lot --> inline(unify) { A }").substr(0, 39), "t.cga:1:9: the operation 'inline' is no");
     EXPECT_EQ(errorOf("Lot --> X.\nextension Roof --> X."),
               "t.cga:2:1: 'extension' is not supported: leave it out, and declare the rule in a style");

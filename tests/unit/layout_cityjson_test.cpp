@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "city/layout/import.h"
+
 using namespace helio;
 
 namespace {
@@ -362,6 +364,38 @@ TEST(CityJson, PartsStandForTheirBuilding)
     const std::string circle = R"("a":{"type":"BuildingPart","parents":["b"],"geometry":[)" + solid(R"("1")") +
                                R"(]},"b":{"type":"BuildingPart","parents":["a"],"geometry":[)" + solid(R"("1")") + "]}";
     EXPECT_EQ(read(city(circle)).features.size(), 2u);
+}
+
+// A whole of 20 x 10 m and 20 m, of which the file also gives the two halves, 20 m and 8 m high.
+TEST(CityJson, PartsReplaceAWholeThatHasItsOwnGeometry)
+{
+    std::string objects, vertices;
+    u32 first = 0;
+    const auto add = [&](const std::string& head, double x0, double x1, double top) {
+        for (const double z : {0.0, top})
+            vertices += concat(first + vertices.size() > 0 ? "," : "", "[", x0, ",0,", z, "],[", x1, ",0,", z, "],[",
+                               x1, ",10,", z, "],[", x0, ",10,", z, "]");
+        const auto face = [&](u32 a, u32 b, u32 c, u32 d) {
+            return concat("[[", first + a, ",", first + b, ",", first + c, ",", first + d, "]]");
+        };
+        objects += concat(first ? "," : "", head, R"(,"geometry":[{"type":"Solid","lod":"1","boundaries":[[)",
+                          face(0, 3, 2, 1), ",", face(4, 5, 6, 7), ",", face(0, 1, 5, 4), ",", face(1, 2, 6, 5), ",",
+                          face(2, 3, 7, 6), ",", face(3, 0, 4, 7), "]]}]}");
+        first += 8;
+    };
+    add(R"("B":{"type":"Building","children":["P1","P2"])", 0, 20, 20);
+    add(R"("P1":{"type":"BuildingPart","parents":["B"])", 0, 10, 20);
+    add(R"("P2":{"type":"BuildingPart","parents":["B"])", 10, 20, 8);
+    const Result<Layout> layout = parseCity(city(objects, vertices, R"("version":"2.0",)"), "parts.city.json");
+    ASSERT_TRUE(layout.ok()) << layout.error().message;
+    ASSERT_EQ(layout->footprints.size(), 2u);
+    std::map<std::string, double> heights;
+    for (const Footprint& footprint : layout->footprints) {
+        heights[footprint.id] = footprint.height;
+        EXPECT_NEAR(area(footprint.outline), 100.0, 1e-6) << footprint.id;
+    }
+    EXPECT_EQ(heights, (std::map<std::string, double>{{"P1", 20.0}, {"P2", 8.0}}));
+    EXPECT_EQ(layout->counts.at("repaired.replaced_by_parts"), 1u);
 }
 
 TEST(CityJson, HeightIsMeasuredOnTheGeometry)

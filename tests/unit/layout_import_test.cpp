@@ -76,6 +76,12 @@ u32 countOf(const Layout& layout, const std::string& name)
     return place == layout.counts.end() ? 0 : place->second;
 }
 
+bool hasNote(const Layout& layout, const std::string& words)
+{
+    return std::any_of(layout.notes.begin(), layout.notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
 TEST(Import, SelectsByBoxAndLimitInTheFilesOwnCoordinates)
 {
     std::vector<std::string> features;
@@ -92,6 +98,26 @@ TEST(Import, SelectsByBoxAndLimitInTheFilesOwnCoordinates)
     const Result<Layout> none = parseCity(text, "city.geojson", {.bbox = Box2{{0, 0}, {1, 1}}});
     ASSERT_FALSE(none.ok());
     EXPECT_NE(none.error().message.find("bounding box"), std::string::npos);
+}
+
+// The longest free edge is the front unless the file's own first edge shall be; a clockwise ring keeps it when it
+// turns.
+TEST(Import, ChoosesTheFrontOrKeepsTheFirstEdge)
+{
+    const Ring2 turning = {{18, 0}, {18, 14}, {0, 14}, {0, 0}}, clockwise = {{18, 14}, {18, 0}, {0, 0}, {0, 14}};
+    for (const Ring2& given : {turning, clockwise}) {
+        const std::string city = collection({ring("a", given, R"("height":9)")});
+        const auto frontOf = [](const Layout& layout) {
+            const Ring2& outer = layout.footprints.at(0).outline.outer;
+            return outer[1] - outer[0];
+        };
+        EXPECT_NEAR(glm::length(frontOf(parse(city))), 18.0, 1e-9);
+        ImportOptions options;
+        options.keepFirstEdge = true;
+        const glm::dvec2 front = frontOf(parse(city, options));
+        EXPECT_NEAR(front.x, 0.0, 1e-9);
+        EXPECT_NEAR(front.y, 14.0, 1e-9);
+    }
 }
 
 TEST(Import, BoxGoesByTheCentroidOfAConcaveFootprint)
@@ -137,6 +163,74 @@ TEST(Import, ProjectsLongitudeAndLatitude)
     ASSERT_EQ(one.streets.size(), 1u);
     EXPECT_NEAR(one.streets[0][0].y, -10.0 - 0.0001 * north, 0.01);
     EXPECT_TRUE(one.footprints[0].onStreet.at(0));
+}
+
+// Fiji, 16.8 S: two houses 0.0015 degrees apart with the antimeridian between them, and one that stands on it, drawn
+// once as RFC 7946 has longitudes and once beyond.
+TEST(Import, ACityMayLieOnTheAntimeridian)
+{
+    const double lat = -16.8, radian = std::numbers::pi / 180.0, e2 = 0.0066943799901413165;
+    const double east =
+        radian * 6378137.0 * std::cos(lat * radian) / std::sqrt(1.0 - e2 * std::pow(std::sin(lat * radian), 2.0));
+    const std::string crs = R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)";
+    const std::string across =
+        ring("X", {{179.9999, lat}, {-179.9999, lat}, {-179.9999, lat + 0.0002}, {179.9999, lat + 0.0002}});
+    for (const bool turned : {false, true}) {
+        std::vector<std::string> features = {box("E", 179.9990, lat, 0.0002, 0.0002),
+                                             box("W", -179.9995, lat, 0.0002, 0.0002), across};
+        if (turned) std::reverse(features.begin(), features.end());
+        features.push_back(line("[[179.9985,-16.80005],[-179.9985,-16.80005]]"));
+        const Layout layout = parse(collection(features, crs));
+        ASSERT_EQ(idsOf(layout), "E W X");
+        const Box2 e = boxOf(byId(layout, "E").outline.outer), w = boxOf(byId(layout, "W").outline.outer);
+        EXPECT_NEAR(w.low.x - e.low.x, 0.0015 * east, 0.01);
+        EXPECT_NEAR(area(byId(layout, "X").outline), area(byId(layout, "E").outline), 0.01);
+        ASSERT_TRUE(layout.longitudeDeg);
+        EXPECT_NEAR(*layout.longitudeDeg, 179.99985, 1e-9); // of 179.9990 to 180.0007
+        ASSERT_EQ(layout.streets.size(), 1u);
+        EXPECT_NEAR(layout.streets[0][1].x - layout.streets[0][0].x, 0.003 * east, 0.01);
+    }
+    // Alone it has no neighbours to go by.
+    EXPECT_NEAR(area(parse(collection({across}, crs)).footprints.at(0).outline),
+                area(parse(collection({box("E", 179.9990, lat, 0.0002, 0.0002)}, crs)).footprints.at(0).outline), 0.01);
+}
+
+TEST(Import, IdsAreUniqueInOrder)
+{
+    // Two of one id, one that has the id the second would get, and a bow tie of two pieces of 20 m2 in the middle.
+    const Layout layout =
+        parse(collection({box("x", 0, 0, 10, 10), box("x", 20, 0, 10, 10), box("x.2", 40, 0, 10, 10),
+                          ring("bow", {{60, 0}, {70, 8}, {70, 0}, {60, 8}}), box("bow.2", 80, 0, 10, 10)}));
+    EXPECT_EQ(idsOf(layout), "bow bow.2 bow.2.2 x x.2 x.3");
+    EXPECT_NEAR(boxOf(byId(layout, "x.3").outline.outer).low.x - boxOf(byId(layout, "x").outline.outer).low.x, 20.0,
+                1e-9);
+    EXPECT_EQ(countOf(layout, "repaired.renamed"), 2u);
+    EXPECT_TRUE(hasNote(layout, "x is now x.3"));
+    EXPECT_EQ(countOf(parse(collection({box("x", 0, 0, 10, 10), box("y", 20, 0, 10, 10)})), "repaired.renamed"), 0u);
+}
+
+TEST(Import, TellsOfStreetsThatAreNotOfTheCity)
+{
+    const std::string near = line("[[-10,-5],[20,-5]]"), far = line("[[5000,0],[5100,0]]"),
+                      house = box("a", 0, 0, 10, 8);
+    const Layout some = parse(collection({house, near, far}));
+    EXPECT_EQ(some.streets.size(), 1u);
+    EXPECT_EQ(countOf(some, "skipped.far_streets"), 1u);
+    EXPECT_TRUE(hasNote(some, "1 of 2 lines"));
+
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "helio_import_far_streets.geojson";
+    const auto failure = [&](const std::string& streetHead, const std::string& cityHead) {
+        std::ofstream(path) << collection({far}, streetHead);
+        const Result<Layout> layout = parseCity(collection({house}, cityHead), "city", {.streets = path});
+        return layout.ok() ? std::string("none") : layout.error().message;
+    };
+    EXPECT_EQ(failure("", "").find(path.string() + ": none of its 1 lines"), 0u) << failure("", "");
+    const std::string utm = R"("metadata":{"crs":"EPSG:32632 (UTM 32N) minus origin"},)";
+    const std::string krovak = R"("metadata":{"crs":"EPSG:5514"},)";
+    EXPECT_NE(failure(utm, krovak).find("give both in one CRS"), std::string::npos) << failure(utm, krovak);
+    std::ofstream(path) << collection({near}, R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},)");
+    EXPECT_EQ(parse(collection({house}, utm), {.streets = path}).streets.size(), 1u);
+    std::filesystem::remove(path);
 }
 
 TEST(Import, MetresNearTheOriginAreNoDegrees)

@@ -87,4 +87,15 @@ TEST(Crs, PlacesUtmCoordinates)
     EXPECT_FALSE(placeOfUtm("EPSG", {444140.54, 3684706.36, 0.0}));
 }
 
+TEST(Projection, NamesOfOneCrsAreTheSame)
+{
+    EXPECT_TRUE(isSameCrs("EPSG:32632 (UTM 32N) minus origin", "urn:ogc:def:crs:EPSG:6.9:32632"));
+    EXPECT_TRUE(isSameCrs("EPSG:28992 (RD New) + NAP", "https://www.opengis.net/def/crs/EPSG/0/7415"));
+    EXPECT_TRUE(isSameCrs("urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326"));
+    EXPECT_TRUE(isSameCrs("a local grid", "a local grid"));
+    EXPECT_FALSE(isSameCrs("EPSG:32632", "EPSG:32633"));
+    EXPECT_FALSE(isSameCrs("EPSG:32632", "EPSG:4326"));
+    EXPECT_FALSE(isSameCrs("a local grid", "another"));
+}
+
 } // namespace

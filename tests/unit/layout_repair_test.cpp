@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "city/base/hash.h"
+#include "city/layout/overlaps.h"
 
 using namespace helio;
 
@@ -214,6 +215,24 @@ TEST(PolygonRepair, KnowsSimplePolygons)
     EXPECT_FALSE(isSimple({{{0, 0}, {5, 0}, {5, 5}, {10, 5}, {10, 10}, {5, 10}, {5, 5}, {0, 5}}, {}})); // meets itself
     EXPECT_FALSE(isSimple({square, {{{1, 1}, {1, 9}, {9, 9}, {9, 1}}, {{2, 2}, {2, 3}, {3, 3}}}})); // hole in a hole
     EXPECT_FALSE(isSimple({square, {{{20, 0}, {22, 0}, {22, 2}}}}));                                // hole outside
+}
+
+TEST(SplitFootprint, TellsOfPiecesWithoutFaces)
+{
+    const auto square = [](double x) { return Polygon2{{{x, 0}, {x + 10, 0}, {x + 10, 10}, {x, 10}}, {}}; };
+    Footprint whole;
+    whole.id = "a";
+    whole.faces.resize(1);
+    whole.faces[0].polygon.outer = {{2, 2, 5}, {8, 2, 5}, {8, 8, 5}, {2, 8, 5}}; // a roof over the first square
+    ImportNotes notes;
+    const std::vector<Footprint> pieces = splitFootprint(whole, {square(0), square(20), square(40)}, notes);
+    ASSERT_EQ(pieces.size(), 1u);
+    EXPECT_EQ(pieces[0].outline.outer[0], glm::dvec2(0, 0));
+    EXPECT_EQ(notes.counts().at("repaired.faceless_pieces"), 1u);
+    EXPECT_EQ(notes.take().at(0), "feature a: dropped 2 piece(s) on which no given wall or roof stands");
+    whole.faces.clear();
+    EXPECT_EQ(splitFootprint(whole, {square(0), square(20)}, notes).size(), 2u);
+    EXPECT_TRUE(notes.take().empty());
 }
 
 } // namespace

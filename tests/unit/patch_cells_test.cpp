@@ -261,13 +261,37 @@ TEST(PatchCells, HighWallsAreCutIntoFloors)
         EXPECT_EQ(build.pieces[i].patch, i);
     }
     EXPECT_EQ(buildNodes(scene.tree, kWindow, {.stripHeight = 0.0}).tree.patchCount(), 1u);
-    // A patch limit cuts both ways, and roofs too.
-    EXPECT_EQ(buildNodes(scene.tree, kWindow, {.stripHeight = 0.0, .maxPatch = 5.0}).tree.patchCount(), 8u);
-    scene.tree.polygons[0] = {{{0, 0, 9}, {10, 0, 9}, {10, 20, 9}, {0, 20, 9}}, {}};
-    EXPECT_EQ(buildNodes(scene.tree, kWindow).tree.patchCount(), 1u);
-    EXPECT_EQ(buildNodes(scene.tree, kWindow, {.maxPatch = 5.0}).tree.patchCount(), 8u);
     scene.tree.shapes.back().sourceFace = 7;
-    EXPECT_EQ(buildNodes(scene.tree, kWindow, {.maxPatch = 5.0}).tree.patchCount(), 1u) << "a face of an OBJ stays one";
+    EXPECT_EQ(buildNodes(scene.tree, kWindow).tree.patchCount(), 1u) << "a face of an OBJ stays one";
+    scene.tree.shapes.back().sourceFace = kNoIndex;
+    scene.tree.polygons[0] = {{{0, 0, 9}, {10, 0, 9}, {10, 20, 9}, {0, 20, 9}}, {}};
+    EXPECT_EQ(buildNodes(scene.tree, kWindow).tree.patchCount(), 1u) << "a flat roof";
+}
+
+TEST(PatchCells, ALedgeAlongTheFacadeIsNoPartOfABay)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    for (u32 i = 0; i < 10; ++i) scene.addLeaf(facade, wall(3.0 * i, 0, 3.0 * i + 3, 3), i % 2);
+    scene.addLeaf(facade, wall(0, 3, 30, 3.04), 0);   // 4 cm x 30 m
+    scene.addLeaf(facade, wall(0, 3.04, 4, 3.08), 1); // and a short one on top of it
+    const NodeTreeBuild build = buildNodes(scene.tree, kWindow);
+    ASSERT_EQ(build.tree.patchCount(), 11u);
+    for (u32 i = 0; i < 10; ++i) EXPECT_NEAR(build.tree.patches[i].area, 9.0, 1e-12) << i;
+    EXPECT_NEAR(build.tree.patches[10].area, 30 * 0.04 + 4 * 0.04, 1e-12);
+}
+
+TEST(PatchCells, ASliverGoesWhereItsCommonSideIsLongest)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    scene.addLeaf(facade, wall(0, 0, 2, 3), 0);
+    scene.addLeaf(facade, wall(2, 0, 3, 3), 1);
+    scene.addLeaf(facade, wall(0, 3, 2.5, 3.04), 0); // 2 m above the first, 0.5 m above the second
+    const NodeTree tree = buildNodes(scene.tree, kWindow).tree;
+    ASSERT_EQ(tree.patchCount(), 2u);
+    EXPECT_NEAR(tree.patches[0].area, 6.0 + 0.1, 1e-12);
+    EXPECT_NEAR(tree.patches[1].area, 3.0, 1e-12);
 }
 
 TEST(PatchCells, ACubeOnTheFacadeIsAClusterBesideIt)
@@ -329,6 +353,90 @@ TEST(PatchCells, WhatASolidPressesAgainstItsWallOrAnotherSolidExchangesNoLight)
     ASSERT_EQ(build.tree.patchCount(), 7u);
     const std::vector<bool> expected{false, true, false, true, true, false, true};
     for (u32 i = 0; i < 7; ++i) EXPECT_EQ(build.tree.patches[i].covered, expected[i]) << i;
+}
+
+TEST(PatchCells, FacesOfOneBuildingThatLieOnEachOtherExchangeNoLight)
+{
+    // A square that faces south; in its plane, to the north: two halves that hide it, then what hides less of another.
+    const auto north = [](double x0, double z0, double x1, double z1) {
+        Polygon3 polygon = wall(x0, z0, x1, z1);
+        std::reverse(polygon.outer.begin(), polygon.outer.end());
+        return polygon;
+    };
+    Scene scene;
+    scene.tree.buildingIds.push_back("neighbour");
+    const auto face = [&](const Polygon3& polygon, u32 building = 0) {
+        const u32 index = scene.addLeaf(scene.add(0, ShapeOp::Component), polygon);
+        scene.tree.shapes[index].building = building;
+        return index;
+    };
+    face(wall(0, 0, 1, 1));
+    face(north(0, 0, 1, 0.5));
+    face(north(0, 0.5, 1, 1));
+    face(wall(2, 0, 4, 1));
+    face(north(2, 0, 3.7, 1)); // hides 85 % of it, and is hidden by it
+    face(wall(5, 0, 6, 1));
+    face(wall(7, 0, 8, 1));
+    Polygon3 apart = north(7, 0, 8, 1); // 5 mm behind: there is a gap
+    for (glm::dvec3& corner : apart.outer) corner.y = 0.005;
+    face(apart);
+    face(north(5, 0, 6, 1), 1);
+    const NodeTreeBuild build = buildNodes(scene.tree, kWindow);
+    ASSERT_EQ(build.tree.patchCount(), 9u);
+    const std::vector<bool> expected{true, true, true, false, true, false, false, false, false};
+    for (u32 i = 0; i < 9; ++i) EXPECT_EQ(build.tree.patches[i].covered, expected[i]) << i;
+    EXPECT_NEAR(build.coveredArea, 1 + 0.5 + 0.5 + 1.7, 1e-12);
+}
+
+TEST(PatchCells, WhatIsHiddenTwiceCountsOnce)
+{
+    const auto north = [](double x0, double z0, double x1, double z1) {
+        Polygon3 polygon = wall(x0, z0, x1, z1);
+        std::reverse(polygon.outer.begin(), polygon.outer.end());
+        return polygon;
+    };
+    const auto isCovered = [](const std::vector<Polygon3>& polygons) {
+        Scene scene;
+        for (const Polygon3& polygon : polygons) scene.addLeaf(scene.add(0, ShapeOp::Component), polygon);
+        const NodeTree tree = buildNodes(scene.tree, kWindow, {.stripHeight = 0.0}).tree;
+        EXPECT_EQ(tree.patchCount(), polygons.size());
+        return tree.patches[0].covered;
+    };
+    const Polygon3 square = wall(0, 0, 10, 10);
+    EXPECT_FALSE(isCovered({square, north(0, 0, 5, 10), north(0, 0, 5, 10)})) << "the same half twice";
+    EXPECT_FALSE(isCovered({square, north(0, 0, 6, 10), north(4, 0, 8.9, 10)})) << "89 of 100 m2, 109 with the overlap";
+    EXPECT_TRUE(isCovered({square, north(0, 0, 6, 10), north(4, 0, 9.1, 10)})) << "91 of 100 m2";
+    // An L of 75 m2 and a square, which cover 75 m2 together, then 100 m2.
+    const Polygon3 ell{{{0, 0, 0}, {0, 0, 10}, {5, 0, 10}, {5, 0, 5}, {10, 0, 5}, {10, 0, 0}}, {}};
+    EXPECT_FALSE(isCovered({square, ell, north(0, 0, 5, 5)}));
+    EXPECT_TRUE(isCovered({square, ell, north(5, 5, 10, 10)}));
+    // 30 strips of 0.6 m that overlap by half: 0.3 * 31 = 9.3 m of 10 m.
+    std::vector<Polygon3> strips{square}, fewer{square};
+    for (u32 i = 0; i < 30; ++i) strips.push_back(north(0.3 * i, 0, 0.3 * i + 0.6, 10));
+    for (u32 i = 0; i < 29; ++i) fewer.push_back(north(0.29 * i, 0, 0.29 * i + 0.6, 10)); // 8.72 m
+    EXPECT_TRUE(isCovered(strips));
+    EXPECT_FALSE(isCovered(fewer));
+}
+
+TEST(PatchCells, ADerivationThatIsGivenAwayMakesTheSameNodes)
+{
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    scene.addFloor(facade, 5, 0.0);
+    scene.addFloor(facade, 5, 3.0);
+    scene.addLeaf(scene.add(0, ShapeOp::Component), wall(20, 0, 30, 20)); // cut into strips
+    const NodeTreeBuild kept = buildNodes(scene.tree, kWindow, {.patch = PatchMode::Bay});
+    const NodeTreeBuild given = buildNodes(std::move(scene.tree), kWindow, {.patch = PatchMode::Bay});
+    ASSERT_GT(kept.stripCount, 0u);
+    ASSERT_GT(kept.mergedCount, 0u);
+    EXPECT_EQ(given.tree.rings, kept.tree.rings);
+    EXPECT_EQ(given.tree.ringIsHole, kept.tree.ringIsHole);
+    EXPECT_EQ(given.tree.children, kept.tree.children);
+    ASSERT_EQ(given.tree.nodeCount(), kept.tree.nodeCount());
+    for (u32 i = 0; i < kept.tree.nodeCount(); ++i) {
+        EXPECT_EQ(given.tree.nodes[i].centroid, kept.tree.nodes[i].centroid) << i;
+        EXPECT_EQ(given.tree.nodes[i].area, kept.tree.nodes[i].area) << i;
+    }
 }
 
 TEST(PatchCells, NarrowFinsAreNotCut)

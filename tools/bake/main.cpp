@@ -6,14 +6,18 @@
 
 #include "city/base/file.h"
 #include "city/grammar/explain.h"
-#include "city/pack/export.h"
 #include "city/pack/pipeline.h"
 #include "city/pack/rule_source.h"
 #include "city/pack/stats_text.h"
 #include "city/pack/writer.h"
+#include "city/sky/sky_dome.h"
+#include "tools/bake/compare.h"
+#include "tools/bake/export_command.h"
+#include "tools/bake/factors.h"
 #include "tools/bake/inspect.h"
 #include "tools/bake/interrupt.h"
 #include "tools/bake/progress.h"
+#include "tools/bake/reference.h"
 #include "tools/support/complain.h"
 #include "tools/support/number_in.h"
 
@@ -26,8 +30,12 @@ struct CommandLine
     std::string output, stats, pack, surfaces, explain;
     std::vector<std::string> attributes; ///< NAME=VALUE
     std::vector<double> bbox;            ///< west, south, east, north
-    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece";
+    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto";
     bool zstd = false;
+    FactorOptions factors;
+    ExportOptions exporting;
+    ReferenceOptions reference;
+    CompareOptions comparing;
 };
 
 void addBakeOptions(CLI::App& app, CommandLine& line)
@@ -43,6 +51,13 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->type_name("lod2|CSV");
     app.add_option("--streets", bake.import.streets,
                    "GeoJSON of street centre-lines, in the footprints' coordinates: fronts face them");
+    app.add_option(
+           "--front", line.front,
+           "front of a footprint: auto = the edge that faces the nearest street, else the longest free one; first = "
+           "the first edge of its ring")
+        ->check(CLI::IsMember({"auto", "first"}))
+        ->type_name("EDGE")
+        ->capture_default_str();
     app.add_option("--bbox", line.bbox, "only footprints whose centroid lies in this box of the file's coordinates")
         ->expected(4)
         ->delimiter(',')
@@ -96,6 +111,12 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
     app.add_option("--rays", bake.light.raysPerPatch, "sky rays per patch; 0 = chosen by the number of patches")
         ->check(CLI::Range(0u, 65536u))
         ->capture_default_str();
+    bake.light.skyPatches = 0;
+    app.add_option("--sky-patches", bake.light.skyPatches,
+                   "parts of the sky that patches know apart; 1 = a smaller pack, for uniform skies only; 0 = 96, or 1 "
+                   "beyond 200,000 patches")
+        ->check(CLI::Range(0u, SkyDome::kMaxCells))
+        ->capture_default_str();
     app.add_option("--link-rays", bake.light.raysPerLink, "visibility rays per pair of parts of a link; 0 = 4")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
@@ -104,6 +125,17 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->capture_default_str();
     app.add_option("--stats", line.stats, "JSON file for the statistics");
     app.add_flag("--zstd", line.zstd, "pack the sections with zstd: a smaller file that is not mapped but unpacked");
+}
+
+void addFactorOptions(CLI::App& command, FactorOptions& factors)
+{
+    command.add_option("PAIRS", factors.pairs, "JSON list of {id, a, b, occluders}; polygons in metres")->required();
+    command.add_option("-o,--output", factors.output, "CSV file to write: id,F_ab,F_ba,visibility,error,evaluations")
+        ->required();
+    command.add_flag("--reference", factors.reference, "as exact as double coordinates allow (slower)");
+    command.add_option("--jobs", factors.jobs, "threads; 0 = all cores; the file does not depend on it")
+        ->check(CLI::Range(0u, 1024u))
+        ->capture_default_str();
 }
 
 /// Takes over what CLI11 cannot put into the options itself.
@@ -126,6 +158,7 @@ Status completeOptions(CommandLine& line)
     }
     for (const LinkMethod method : {LinkMethod::Heliopolis, LinkMethod::Paper, LinkMethod::PaperLiteral})
         if (line.method == methodName(method)) line.bake.light.method = method;
+    line.bake.import.keepFirstEdge = line.front == "first";
     line.bake.nodes.patch = line.patch == "bay" ? PatchMode::Bay : PatchMode::Piece;
     return Nothing{};
 }
@@ -197,20 +230,6 @@ int runBake(CommandLine& line)
     return kOk;
 }
 
-int runExport(const CommandLine& line)
-{
-    const Result<Pack> pack = Pack::open(line.pack);
-    if (!pack) return complain(pack.error().message, kBadInput);
-    {
-        const InterruptGuard guard;
-        Status written = writeSurfaces(*pack, line.surfaces);
-        if (InterruptGuard::caught() != 0) dieOf(InterruptGuard::caught());
-        if (!written) return complain(written.error().message, kBadInput);
-    }
-    std::printf("%s.obj, %s.csv: %u patches\n", line.surfaces.c_str(), line.surfaces.c_str(), pack->patchCount());
-    return kOk;
-}
-
 int runMain(int argc, char** argv)
 {
     CommandLine line;
@@ -221,10 +240,12 @@ int runMain(int argc, char** argv)
     addBakeOptions(app, line);
     CLI::App* info = app.add_subcommand("info", "say what a pack holds");
     CLI::App* verify = app.add_subcommand("verify", "check every byte and index of a pack");
-    CLI::App* exporting = app.add_subcommand("export", "write the patches as OBJ and CSV, in the order of their ids");
-    for (CLI::App* command : {info, verify, exporting})
-        command->add_option("PACK", line.pack, "pack folder")->required();
-    exporting->add_option("--surfaces", line.surfaces, "name of the two files without .obj and .csv")->required();
+    for (CLI::App* command : {info, verify}) command->add_option("PACK", line.pack, "pack folder")->required();
+    CLI::App* exporting = addExportCommand(app, line.exporting);
+    CLI::App* reference = addReferenceCommand(app, line.reference);
+    CLI::App* comparing = addCompareCommand(app, line.comparing);
+    CLI::App* factors = app.add_subcommand("factors", "form factors and visibility of pairs of polygons");
+    addFactorOptions(*factors, line.factors);
     app.require_subcommand(0, 1);
     try {
         app.parse(argc, argv);
@@ -236,8 +257,14 @@ int runMain(int argc, char** argv)
         const Status status = info->parsed() ? printInfo(line.pack) : verifyPack(line.pack);
         return status ? kOk : complain(status.error().message, kBadInput);
     }
-    if (!line.explain.empty()) return runExplain(line);
-    return exporting->parsed() ? runExport(line) : runBake(line);
+    if (factors->parsed()) {
+        const Status status = writeFactors(line.factors);
+        return status ? kOk : complain(status.error().message, kBadInput);
+    }
+    if (exporting->parsed()) return runExport(line.exporting);
+    if (reference->parsed()) return runReference(line.reference);
+    if (comparing->parsed()) return runCompare(line.comparing);
+    return line.explain.empty() ? runBake(line) : runExplain(line);
 }
 
 } // namespace

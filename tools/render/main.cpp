@@ -57,11 +57,10 @@ void printPicture(const Picture& picture)
     std::printf("  %-28s %9.2f ms\n", "4 forward shading, tone", total);
 }
 
-std::string describeLight(const RenderOptions& o, const SolveReport& report)
+std::string describeLight(const RenderOptions& o, const Daylight& light, const SolveReport& report)
 {
-    return concat("sun azimuth ", o.sun.x, " elevation ", o.sun.y, " degrees, DNI ", o.dni, ", uniform sky DHI ", o.dhi,
-                  o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual, " after ",
-                  report.sweeps, " sweeps", shortfall(o, report));
+    return concat(light.description, o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual,
+                  " after ", report.sweeps, " sweeps", shortfall(o, report));
 }
 
 Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptions& o)
@@ -105,6 +104,8 @@ int runMain(int argc, char** argv)
         return complain(
             concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"),
             kBadInput);
+    const Result<Daylight> light = daylightOver(*pack, o.daylight);
+    if (!light) return complain(concat(o.pack, ": ", light.error().message), kBadInput);
     const Result<Camera> camera = parseCamera(o.camera, *pack);
     if (!camera) return complain(camera.error().message, kBadInput);
 
@@ -136,8 +137,9 @@ int runMain(int argc, char** argv)
     Renderer& renderer = **created;
     steps.done("upload");
 
-    renderer.setSun(o.sun.x, o.sun.y, o.dni);
-    renderer.setSky(o.dhi);
+    std::printf("Light: %s\n", light->description.c_str());
+    renderer.setSun(light->azimuthDeg, light->elevationDeg, light->dni);
+    renderer.setSky(light->dhi, light->skyRadiance);
     renderer.setEmission(o.emission);
     const SolveReport report = renderer.solve();
     steps.done("solve");
@@ -145,7 +147,8 @@ int runMain(int argc, char** argv)
     if (const Status written = writePictures(renderer, *camera, o); !written)
         return complain(written.error().message, kBadInput);
     if (!o.table.empty()) {
-        const Result<std::string> text = tableText(*pack, renderer.readTables(), o.rows, describeLight(o, report));
+        const Result<std::string> text =
+            tableText(*pack, renderer.readTables(), o.rows, describeLight(o, *light, report));
         if (!text) return complain(text.error().message, kBadInput);
         if (const Status written = writeTextAtomically(o.table, *text); !written)
             return complain(written.error().message, kBadInput);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "city/sky/calendar.h"
 #include "tools/support/number_in.h"
 
 namespace helio {
@@ -26,11 +27,12 @@ std::string checkSize(const std::string& text, u32& width, u32& height)
     return {};
 }
 
-std::string checkSun(const std::string& text, glm::dvec2& sun)
+std::string checkSun(const std::string& text, DaylightOptions& light)
 {
     int used = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf%n", &sun.x, &sun.y, &used) != 2 || size_t(used) != text.size() ||
-        !(sun.x >= -360.0 && sun.x <= 360.0) || !(sun.y >= -90.0 && sun.y <= 90.0))
+    double &azimuth = light.azimuthDeg, &elevation = light.elevationDeg;
+    if (std::sscanf(text.c_str(), "%lf,%lf%n", &azimuth, &elevation, &used) != 2 || size_t(used) != text.size() ||
+        !(azimuth >= -360.0 && azimuth <= 360.0) || !(elevation >= -90.0 && elevation <= 90.0))
         return concat("--sun ", text, ": expected AZIMUTH,ELEVATION in degrees, -360 to 360 and -90 to 90");
     return {};
 }
@@ -47,15 +49,31 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         "Exit codes: 0 = ok, 1 = bad input or usage, 2 = device or internal.",
         "heliopolis-render"};
     app.add_option("PACK", o.pack, "pack folder, from heliopolis-bake")->required();
-    app.add_option("--sun", sun, "azimuth,elevation in degrees; azimuth clockwise from true north")
+    DaylightOptions& light = o.daylight;
+    auto* sunOption = app.add_option("--sun", sun, "azimuth,elevation in degrees; azimuth clockwise from true north")
+                          ->capture_default_str();
+    auto* date = app.add_option("--date", light.date, "day YYYY-MM-DD, with --time: the sun over the pack's place")
+                     ->excludes(sunOption);
+    auto* time = app.add_option("--time", light.time, "HH:MM or HH:MM:SS of --date")->needs(date);
+    date->needs(time);
+    app.add_option("--utc-offset", light.utcOffset, "hours that the clock of --time is ahead of UTC")
+        ->check(numberIn(-15.0, 15.0))
+        ->needs(date)
         ->capture_default_str();
-    app.add_option("--dni", o.dni, "direct normal irradiance of the sun, W/m2")
-        ->check(numberIn(0.0, 1e6))
+    auto* dni = app.add_option("--dni", light.dni, "direct normal irradiance of the sun, W/m2")
+                    ->check(numberIn(0.0, 1e6))
+                    ->capture_default_str();
+    app.add_option("--sky", sky, "uniform, cie:N (ISO 15469 type 1 to 15; 16 = traditional overcast) or perez")
         ->capture_default_str();
-    app.add_option("--sky", sky, "sky model: uniform")->check(CLI::IsMember({"uniform"}))->capture_default_str();
-    app.add_option("--dhi", o.dhi, "diffuse horizontal irradiance of the sky, W/m2")
-        ->check(numberIn(0.0, 1e6))
-        ->capture_default_str();
+    auto* dhi = app.add_option("--dhi", light.dhi, "diffuse horizontal irradiance of the sky, W/m2")
+                    ->check(numberIn(0.0, 1e6))
+                    ->capture_default_str();
+    app.add_option("--turbidity", light.turbidity,
+                   "Linke turbidity, 1 to 10: --dni and --dhi of a cloudless sky at --date (2-3 clean, 4-6 hazy air)")
+        ->check(numberIn(1.0, 10.0))
+        ->needs(date)
+        ->excludes(dni)
+        ->excludes(dhi);
     app.add_flag("--no-emission", noEmission, "switch off what patches emit themselves");
     app.add_option("--camera", o.camera, "aerial, street, top, or x,y,z,tx,ty,tz[,fov] (m, vertical degrees)")
         ->capture_default_str();
@@ -102,7 +120,13 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         }
         return Error{concat(error.what(), "; see --help")};
     }
-    if (const std::string wrong = checkSun(sun, o.sun); !wrong.empty()) return Error{wrong};
+    if (const std::string wrong = checkSun(sun, light); !wrong.empty()) return Error{wrong};
+    const Result<SkyChoice> choice = parseSky(sky);
+    if (!choice) return Error{concat("--sky: ", choice.error().message)};
+    light.sky = *choice;
+    if (!light.date.empty())
+        if (const Result<double> day = parseJulianDay(light.date, light.time, light.utcOffset); !day)
+            return Error{concat("--date, --time: ", day.error().message)};
     if (const std::string wrong = checkSize(size, o.width, o.height); !wrong.empty()) return Error{wrong};
     if (o.png.empty() && o.exr.empty() && o.table.empty())
         return Error{"nothing to do: ask for a picture (-o A.png, --exr A.exr) or a table (--table T.csv); see --help"};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <glm/vec2.hpp>
 #include <string>
 
 #include "city/base/result.h"
 #include "city/base/types.h"
 #include "shaders/shared/view.h"
+#include "tools/render/daylight.h"
 #include "tools/render/table.h"
 
 namespace helio {
@@ -14,8 +14,7 @@ namespace helio {
 struct RenderOptions
 {
     std::string pack;
-    glm::dvec2 sun{180.0, 45.0};     ///< azimuth, elevation, degrees
-    double dni = 800.0, dhi = 120.0; ///< W/m2
+    DaylightOptions daylight;
     bool emission = true;
     std::string camera = "aerial";
     u32 width = 1280, height = 720;

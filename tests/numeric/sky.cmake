@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+add_executable(sky_test
+    numeric/fixtures.cpp
+    numeric/sky_links_test.cpp
+    numeric/sky_test.cpp
+    unit/solar_position_test.cpp)
+target_link_libraries(sky_test PRIVATE city_light GTest::gtest_main)
+gtest_discover_tests(sky_test PROPERTIES LABELS numeric)

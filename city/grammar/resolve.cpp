@@ -173,8 +173,8 @@ private:
         }
         if (statement.block)
             return fail(statement.place, concat("unknown operation '", name,
-                                                "': a block { .. } belongs to split, comp, setback, "
-                                                "setbackPerEdge, innerRectangle, shapeL and the like, not to a rule"));
+                                                "': a block { .. } belongs to split, comp, setback, setbackPerEdge, "
+                                                "innerRectangle, shapeL, shapeU, shapeO and scatter, not to a rule"));
         statement.kind = StatementKind::Rule;
         if (const auto rule = program_.ruleIndex.find({prefix_ + name, argCount}); rule != program_.ruleIndex.end()) {
             statement.rule = rule->second;

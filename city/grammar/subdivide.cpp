@@ -99,7 +99,7 @@ void Interpreter::split(const Statement& statement, const ShapeState& state, Fra
     const size_t corners = cornerCount(whole);
     if (parts->empty() && !whole.faces.empty())
         trouble_.warn(statement.place, state.scope.size[axis] > kMinSize
-                                           ? "this split makes no part: all its sizes are 0"
+                                           ? "this split makes no part: no size is above 0 and fits"
                                            : "this split makes no part: its shape has no extent along the axis");
     for (size_t k = 0; k < parts->size() && !trouble_.failed(); ++k) {
         const SplitPart& part = (*parts)[k];

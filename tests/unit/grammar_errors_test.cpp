@@ -87,6 +87,79 @@ TEST(GrammarErrors, AMistakeHasNoConsequences)
     EXPECT_EQ(placesOf("Lot --> X. $ ? \xC3\xA4\xC3\xB6 ! Y.\nA --> frob(1)"), "1:14 2:7");
 }
 
+/// The first line of the errors.
+std::string firstOf(std::string_view rules)
+{
+    const std::string errors = errorsOf(rules);
+    return errors.substr(0, errors.find('\n'));
+}
+
+TEST(GrammarErrors, UnknownWordsAreNamed)
+{
+    EXPECT_EQ(firstOf("Lot --> comp(q) { all : A }"),
+              "t.cga:1:9: 'comp' does not know the bare word 'q': write comp(f) { front : Front | side : Wall | top : "
+              "Roof }");
+    EXPECT_EQ(firstOf("Lot --> split(w) { 1 : A }"),
+              "t.cga:1:9: 'split' does not know the bare word 'w': write split(x) { 1 : A | ~2 : B }");
+    EXPECT_EQ(firstOf("Lot --> split(3) { 1 : A }"),
+              "t.cga:1:9: a bare word is missing in 'split': write split(x) { 1 : A | ~2 : B }");
+    EXPECT_NE(firstOf("Lot --> scatter(surface, 5, evenly) { A }").find("the bare words 'surface', 'evenly':"),
+              std::string::npos);
+    for (const char* word : {"g", "m", "h"})
+        EXPECT_EQ(firstOf(concat("Lot --> comp(", word, ") { all : A }")),
+                  concat("t.cga:1:9: comp(", word,
+                         ") is not supported: faces have no groups, materials or holes of their own: use comp(f) and "
+                         "select faces by where they look"));
+    for (const char* word : {"u", "v"})
+        EXPECT_EQ(firstOf(concat("Lot --> split(", word, ") { 1 : A }")),
+                  concat("t.cga:1:9: split(", word,
+                         ") is not supported: there are no texture coordinates: use split(x), split(y) or split(z)"));
+}
+
+TEST(GrammarErrors, SetNeedsAnAttribute)
+{
+    EXPECT_NE(firstOf("Lot --> set(tint, 3) A").find("'tint': declare attr tint = .."), std::string::npos);
+    EXPECT_NE(firstOf("const tint = 2\nLot --> set(tint, 3) A").find("'tint' is a constant: declare it with attr"),
+              std::string::npos);
+    EXPECT_EQ(errorsOf("attr tint = 2\nLot --> set(tint, 3) A.\n"), "no error");
+}
+
+TEST(GrammarErrors, SelectorsAreNoExpressions)
+{
+    for (const char* selector : {"front && side", "!front", "front || top"})
+        EXPECT_EQ(firstOf(concat("Lot --> comp(f) { ", selector, " : A }")).substr(0, 95),
+                  "t.cga:1:19: boolean expressions of selectors are not supported: use one selector after another;")
+            << selector;
+    EXPECT_EQ(firstOf("Lot --> comp(f) { \"front\" : A }"),
+              "t.cga:1:19: a selector is a bare word: write front without quotes");
+    EXPECT_NE(firstOf("Lot --> comp(f) { tagged(1) : A }").find("unknown selector 'tagged(..)': use front,"),
+              std::string::npos);
+}
+
+TEST(GrammarErrors, FunctionsAreNoOperations)
+{
+    EXPECT_EQ(firstOf("Lot --> rint(3) A."),
+              "t.cga:1:9: 'rint' is a function: use it in a value, as in s(rint(..), 1, 1)");
+    EXPECT_EQ(firstOf("f(x) = x\nLot --> f(3) A."),
+              "t.cga:2:9: 'f' is a function: use it in a value, as in s(f(..), 1, 1)");
+    EXPECT_EQ(firstOf("Lot --> contextCount(inter, \"a\") A."),
+              "t.cga:1:9: the function 'contextCount' is not supported: use touches(inter), which knows the walls that "
+              "neighbours cover");
+    EXPECT_EQ(errorsOf("Lot --> rint(3)\nrint(n) --> A."), "no error"); // a rule of this name
+}
+
+TEST(GrammarErrors, BlocksAndSizesSayWhereTheyBelong)
+{
+    EXPECT_EQ(firstOf("Lot --> Part { 1 : A }"),
+              "t.cga:1:9: unknown operation 'Part': a block { .. } belongs to split, comp, setback, setbackPerEdge, "
+              "innerRectangle, shapeL, shapeU, shapeO and scatter, not to a rule");
+    const std::string sizes = "' (relative to the scope) belongs to sizes of s, t, scatter and split, ~ to those of "
+                              "split";
+    EXPECT_EQ(firstOf("Lot --> extrude('2) A."), concat("t.cga:1:18: ", sizes, ", not to 'extrude'"));
+    EXPECT_EQ(firstOf("Lot --> s(~2, 1, 1) A."), concat("t.cga:1:12: ", sizes, ", not to 's'"));
+    EXPECT_EQ(firstOf("Lot --> A('2)\nA(x) --> B."), concat("t.cga:1:12: ", sizes, ": a rule takes plain values"));
+}
+
 TEST(GrammarErrors, AnnotationsAndSeparators)
 {
     EXPECT_EQ(placesOf("@Range(min=1, (\nattr a = 1\nLot --> frob(1)"), "1:15 3:9");

@@ -94,7 +94,8 @@ TEST(GrammarPlacement, TranslateInSystems)
     expectNear(place("t(5, 5, 5) translate(abs, object, 0, 1, 0)", moved).low, {3, 1, 3});
     expectNear(place("translate(rel, object, 1, 0, 2)", kWest).low, {-2, -1, 0});
     expectNear(place("r(0, 90, 0) translate(rel, scope, 1, 0, 0)").low, {0, 9, 0});
-    EXPECT_NE(errorOf("Lot --> translate(rel, here, 1, 0, 0) A.").find("does not know this bare word"),
+    EXPECT_NE(errorOf("Lot --> translate(rel, here, 1, 0, 0) A.")
+                  .find("'translate' does not know the bare words 'rel', 'here': write "),
               std::string::npos);
 }
 

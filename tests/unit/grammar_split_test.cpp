@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "tests/unit/grammar_support.h"
+
 namespace helio::cga {
 namespace {
 
@@ -128,6 +130,31 @@ TEST(GrammarSplit, GiantCountsAreErrors)
     EXPECT_FALSE(splitParts(10, {repeat({absolute(1e-6)})}).ok());
     EXPECT_FALSE(splitParts(10, {repeat({floating(1e-7)})}).ok());
     EXPECT_FALSE(splitParts(1e5, {repeat({repeat({absolute(0.1)}), absolute(1)})}).ok()); // 10^5 x ... through nesting
+}
+
+/// The warnings of rules on a box of 10 x 10 x 10 m, without the first line's place.
+std::vector<std::string> warningsOf(std::string_view rules)
+{
+    std::vector<std::string> lines;
+    for (const std::string& line : test::mustDerive(rules, {test::boxFootprint(10, 10, 10)}).warnings)
+        lines.push_back(line.substr(0, line.find('\n')));
+    return lines;
+}
+
+TEST(GrammarSplit, WarnsOfNegativeSizes)
+{
+    EXPECT_EQ(warningsOf("Lot --> split(x) { 4 - 6 : A. | ~1 : B. }"),
+              std::vector<std::string>{"t.cga:1:20: this size of a split is negative and counts as 0 (-2)"});
+    EXPECT_EQ(warningsOf("Lot --> split(x) { 4 - 4 : A. | ~1 : B. }"), std::vector<std::string>{});
+}
+
+TEST(GrammarSplit, WarnsOfASplitWithoutParts)
+{
+    EXPECT_EQ(warningsOf("Lot --> split(x) { 0 : A. | '0 : B. }"),
+              std::vector<std::string>{"t.cga:1:9: this split makes no part: no size is above 0 and fits"});
+    EXPECT_EQ(warningsOf("Lot --> split(y) { ~1 : A. }"), // of a plane
+              std::vector<std::string>{"t.cga:1:9: this split makes no part: its shape has no extent along the axis"});
+    EXPECT_EQ(warningsOf("Lot --> extrude(2) split(y) { ~1 : A. }"), std::vector<std::string>{});
 }
 
 } // namespace

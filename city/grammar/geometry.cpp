@@ -46,18 +46,6 @@ u32 ringEdgeCount(const Polygon3& polygon)
     return u32(count);
 }
 
-/// An edge as six integers on a grid of a micrometre, to find edges that two faces share.
-using EdgeKey = std::array<i64, 6>;
-EdgeKey edgeKey(const glm::dvec3& a, const glm::dvec3& b)
-{
-    EdgeKey key;
-    for (int k = 0; k < 3; ++k) {
-        key[size_t(k)] = std::llround(a[k] * 1e6);
-        key[size_t(k) + 3] = std::llround(b[k] * 1e6);
-    }
-    return key;
-}
-
 } // namespace
 
 double area(const Geometry& geometry)
@@ -92,6 +80,16 @@ size_t cornerCount(const Geometry& geometry)
     size_t count = 0;
     for (const Face& face : geometry.faces) forEachRing(face.polygon, [&](const Ring3& ring) { count += ring.size(); });
     return count;
+}
+
+EdgeKey edgeKey(const glm::dvec3& a, const glm::dvec3& b)
+{
+    EdgeKey key;
+    for (int k = 0; k < 3; ++k) {
+        key[size_t(k)] = std::llround(a[k] * 1e6);
+        key[size_t(k) + 3] = std::llround(b[k] * 1e6);
+    }
+    return key;
 }
 
 u64 planeWork(const Face& face)

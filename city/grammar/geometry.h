@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <glm/mat3x3.hpp>
 #include <utility>
 #include <vector>
@@ -45,6 +46,9 @@ double volume(const Geometry& geometry);
 std::pair<glm::dvec3, glm::dvec3> bounds(const Geometry& geometry);
 /// Corners of all rings of all faces.
 size_t cornerCount(const Geometry& geometry);
+/// An edge as six integers on a grid of a micrometre, to find edges that two faces share.
+using EdgeKey = std::array<i64, 6>;
+EdgeKey edgeKey(const glm::dvec3& a, const glm::dvec3& b);
 /// Steps that an offset, setback or roof over a face is charged: they compare every corner (holes included) with every
 /// other.
 u64 planeWork(const Face& face);

@@ -15,18 +15,6 @@ namespace {
 constexpr double kNear = 1e-3;      ///< m: edges this close run along each other
 constexpr double kFlatAngle = 1e-4; ///< 1 - cosine: faces in one plane have no corner between them
 
-/// An edge as six integers on a grid of a micrometre.
-using EdgeKey = std::array<i64, 6>;
-EdgeKey edgeKey(const glm::dvec3& a, const glm::dvec3& b)
-{
-    EdgeKey key;
-    for (int k = 0; k < 3; ++k) {
-        key[size_t(k)] = std::llround(a[k] * 1e6);
-        key[size_t(k) + 3] = std::llround(b[k] * 1e6);
-    }
-    return key;
-}
-
 /// True if `b` runs against `a` along a part of it.
 bool runsAgainst(const MeshEdge& a, const MeshEdge& b)
 {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "city/base/json_depth.h"
+#include "city/layout/json_text.h"
 
 namespace helio {
 
@@ -15,19 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kLargestHeight = 1000.0; // m; more is a unit mistake
-
-const json* find(const json& object, const char* key)
-{
-    if (!object.is_object()) return nullptr;
-    const auto place = object.find(key);
-    return place == object.end() ? nullptr : &*place;
-}
-
-std::string textOf(const json& object, const char* key)
-{
-    const json* value = find(object, key);
-    return value && value->is_string() ? value->get<std::string>() : std::string();
-}
 
 std::string idText(const json& value)
 {
@@ -39,9 +27,9 @@ std::string idText(const json& value)
 std::string idOf(const json& feature, size_t number)
 {
     std::string id;
-    if (const json* own = find(feature, "id")) id = idText(*own);
-    const json* properties = find(feature, "properties");
-    if (const json* own = properties ? find(*properties, "id") : nullptr; own && id.empty()) id = idText(*own);
+    if (const json* own = findMember(feature, "id")) id = idText(*own);
+    const json* properties = findMember(feature, "properties");
+    if (const json* own = properties ? findMember(*properties, "id") : nullptr; own && id.empty()) id = idText(*own);
     return id.empty() ? concat("#", number) : id;
 }
 
@@ -77,14 +65,14 @@ public:
     {
         if (!root.is_object()) return fail("the file holds no JSON object; export the footprints as GeoJSON");
         readFrame(root);
-        const std::string type = textOf(root, "type");
+        const std::string type = findText(root, "type");
         if (type == "FeatureCollection") {
-            const json* features = find(root, "features");
+            const json* features = findMember(root, "features");
             if (!features || !features->is_array()) return fail("FeatureCollection without an array \"features\"");
             for (size_t i = 0; i < features->size(); ++i) readFeature((*features)[i], i);
         } else if (type == "Feature") {
             readFeature(root, 0);
-        } else if (find(root, "coordinates") || find(root, "geometries")) {
+        } else if (findMember(root, "coordinates") || findMember(root, "geometries")) {
             GeoFeature feature;
             feature.id = "#0";
             readGeometry(root, feature);
@@ -103,14 +91,14 @@ private:
 
     void readFrame(const json& root)
     {
-        if (const json* crs = find(root, "crs"))
-            if (const json* properties = find(*crs, "properties")) file_.crs = textOf(*properties, "name");
-        const json* metadata = find(root, "metadata");
+        if (const json* crs = findMember(root, "crs"))
+            if (const json* properties = findMember(*crs, "properties")) file_.crs = findText(*properties, "name");
+        const json* metadata = findMember(root, "metadata");
         if (!metadata) return;
-        if (const std::string crs = textOf(*metadata, "crs"); !crs.empty()) file_.crs = crs;
-        const std::string units = textOf(*metadata, "units");
+        if (const std::string crs = findText(*metadata, "crs"); !crs.empty()) file_.crs = crs;
+        const std::string units = findText(*metadata, "units");
         file_.metric = units == "m" || units == "metre" || units == "meter" || units == "metres" || units == "meters";
-        const json* origin = find(*metadata, "origin");
+        const json* origin = findMember(*metadata, "origin");
         if (!origin || !origin->is_array()) return;
         for (u32 i = 0; i < std::min<size_t>(3, origin->size()); ++i)
             if ((*origin)[i].is_number()) file_.origin[int(i)] = (*origin)[i].get<double>();
@@ -120,9 +108,9 @@ private:
     {
         GeoFeature feature;
         feature.id = idOf(value, number);
-        const json* geometry = find(value, "geometry");
+        const json* geometry = findMember(value, "geometry");
         if (!geometry || !geometry->is_object()) return skip(feature, "no geometry");
-        if (const json* properties = find(value, "properties"); properties && properties->is_object())
+        if (const json* properties = findMember(value, "properties"); properties && properties->is_object())
             readProperties(*properties, feature);
         readGeometry(*geometry, feature);
     }
@@ -166,8 +154,8 @@ private:
     // nest no deeper than one level.
     void collect(const json& geometry, GeoFeature& feature, std::string& trouble, bool nested = false)
     {
-        const std::string type = textOf(geometry, "type");
-        const json* list = find(geometry, type == "GeometryCollection" ? "geometries" : "coordinates");
+        const std::string type = findText(geometry, "type");
+        const json* list = findMember(geometry, type == "GeometryCollection" ? "geometries" : "coordinates");
         const bool isLine = type == "LineString" || type == "MultiLineString";
         const bool known =
             isLine || type == "Polygon" || type == "MultiPolygon" || (type == "GeometryCollection" && !nested);
@@ -241,20 +229,6 @@ private:
     GeoFile file_;
 };
 
-// "parse error at line 1, column 5: what is wrong" without the library's own prefix.
-std::string reasonOf(const std::exception& failure)
-{
-    std::string text = failure.what();
-    const size_t column = text.find(", column ");
-    const size_t colon = text.find(": ", column == std::string::npos ? 0 : column);
-    const size_t bracket = text.find("] ");
-    if (column != std::string::npos && colon != std::string::npos)
-        text = text.substr(colon + 2);
-    else if (bracket != std::string::npos)
-        text = text.substr(bracket + 2);
-    return text.substr(0, 160);
-}
-
 } // namespace
 
 Result<GeoFile> readGeoFeatures(std::string_view text, std::string_view name)
@@ -268,9 +242,9 @@ Result<GeoFile> readGeoFeatures(std::string_view text, std::string_view name)
     try {
         return Reader(name).read(json::parse(text));
     } catch (const json::parse_error& failure) {
-        return failAt(std::min(failure.byte, text.size()), concat("not JSON (", reasonOf(failure), ")"));
+        return failAt(std::min(failure.byte, text.size()), concat("not JSON (", jsonReason(failure), ")"));
     } catch (const json::exception& failure) {
-        return Error{concat(name, ": ", reasonOf(failure), "; export the footprints as GeoJSON")};
+        return Error{concat(name, ": ", jsonReason(failure), "; export the footprints as GeoJSON")};
     }
 }
 

@@ -7,12 +7,9 @@
 
 namespace helio {
 
-namespace {
-
 using nlohmann::json;
 
-// "parse error at line 1, column 5: what is wrong" without the library's own prefix.
-std::string reasonOf(const std::exception& failure)
+std::string jsonReason(const std::exception& failure)
 {
     std::string text = failure.what();
     const size_t column = text.find(", column ");
@@ -24,8 +21,6 @@ std::string reasonOf(const std::exception& failure)
         text = text.substr(bracket + 2);
     return text.substr(0, 160);
 }
-
-} // namespace
 
 Result<json> parseJson(std::string_view part, std::string_view whole, std::string_view name, std::string_view advice)
 {
@@ -42,9 +37,9 @@ Result<json> parseJson(std::string_view part, std::string_view whole, std::strin
     } catch (const json::parse_error& failure) {
         // The library counts bytes from 1.
         return failAt(std::min(failure.byte - (failure.byte > 0), part.size()),
-                      concat("not JSON (", reasonOf(failure), ")"));
+                      concat("not JSON (", jsonReason(failure), ")"));
     } catch (const json::exception& failure) { // a number beyond any double; the library names no place
-        return failAt(0, reasonOf(failure));
+        return failAt(0, jsonReason(failure));
     }
 }
 

@@ -8,6 +8,9 @@
 // JSON texts from outside, read without exceptions. For readers of JSON inputs, not for other code.
 namespace helio {
 
+/// What the library says is wrong, without its own prefix ("parse error at line 1, column 5: "); at most 160 bytes.
+std::string jsonReason(const std::exception& failure);
+
 /// Parses one JSON value that fills `part`, a piece of `whole` (for line and byte in messages). Errors (one line):
 /// `name`, line, byte, what is wrong, `advice`; nesting beyond kMaxJsonDepth is one.
 Result<nlohmann::json> parseJson(std::string_view part, std::string_view whole, std::string_view name,

@@ -13,7 +13,7 @@
 
 namespace helio {
 
-inline constexpr u32 kPackVersion = 1;
+inline constexpr u32 kPackVersion = 2;
 
 /// What the index of a pack says. Little endian JSON text with a checksum line; see city/format/README.md.
 struct PackIndex
@@ -56,6 +56,8 @@ struct TileView
     std::span<const char> nodeNames; ///< '\n'-terminated names
     std::span<const char> surfaceNames;
     std::span<const char> buildingIds;
+    /// One an entry of `children` where there are link moments, else empty: constant senders.
+    std::span<const gpu::ChildSlopeRecord> childSlopes;
 };
 
 /// A pack opened for reading. Every offset, count and index in it has been checked against its bounds.

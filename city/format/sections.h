@@ -31,9 +31,10 @@ enum class SectionId : u32
     Draws,
     NodeNames,
     SurfaceNames,
-    BuildingIds
+    BuildingIds,
+    ChildSlopes
 };
-inline constexpr u32 kSectionCount = u32(SectionId::BuildingIds);
+inline constexpr u32 kSectionCount = u32(SectionId::ChildSlopes);
 
 /// Calls visit(id, name, span) for every section of a TileView (const or not), by rising id.
 template <class View, class Visit> void forEachSection(View& tile, Visit&& visit)
@@ -61,6 +62,7 @@ template <class View, class Visit> void forEachSection(View& tile, Visit&& visit
     visit(SectionId::NodeNames, "node names", tile.nodeNames);
     visit(SectionId::SurfaceNames, "surface names", tile.surfaceNames);
     visit(SectionId::BuildingIds, "building ids", tile.buildingIds);
+    visit(SectionId::ChildSlopes, "child slopes", tile.childSlopes);
 }
 
 /// How a section's bytes are stored.

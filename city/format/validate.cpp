@@ -238,6 +238,15 @@ private:
         for (u64 i = 0; i < t_.linkMoments.size(); ++i)
             if (!std::isfinite(t_.linkMoments[i]))
                 return fail(SectionId::LinkMoments, t_.linkMoments, i, "a moment is not finite");
+        const u64 slopes = t_.linkMoments.empty() ? 0 : t_.children.size();
+        if (t_.childSlopes.size() != slopes)
+            return fail(SectionId::ChildSlopes, t_.childSlopes, 0, t_.childSlopes.size(), " child slopes instead of ",
+                        slopes, " (one a child where links have moments)");
+        for (u64 i = 0; i < t_.childSlopes.size(); ++i)
+            for (const float value : {t_.childSlopes[i].offsetX, t_.childSlopes[i].offsetY, t_.childSlopes[i].xx,
+                                      t_.childSlopes[i].xy, t_.childSlopes[i].yx, t_.childSlopes[i].yy})
+                if (!std::isfinite(value))
+                    return fail(SectionId::ChildSlopes, t_.childSlopes, i, "a slope is not finite");
         return Nothing{};
     }
 

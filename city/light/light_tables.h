@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "city/base/types.h"
@@ -8,12 +9,14 @@
 namespace helio {
 
 /// Links in rows by receiver (CSR over all nodes, patches and inner nodes alike): irradiance_i += factor *
-/// radiosity_column.
+/// radiosity_column, plus moment . slope_column where senders are linear (linear_senders.h).
 struct LinkTable
 {
     std::vector<u32> rowBegin; ///< nodeCount + 1
     std::vector<u32> column;   ///< sender node, ascending inside a row
     std::vector<float> factor; ///< F(receiver to sender) x visibility, 0..1
+    std::vector<glm::vec2> moment; ///< integral of factor x the sender's slope coordinates; empty: constant senders
+    std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to NodeTree::children where there are moments
 };
 
 /// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column). The sky patches are the cells of a SkyDome.

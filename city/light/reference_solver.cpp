@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "city/base/check.h"
+#include "city/light/linear_senders.h"
 
 namespace helio {
 namespace {
@@ -16,27 +17,52 @@ double largest(const glm::dvec4& v)
     return std::max(std::max(v.x, v.y), std::max(v.z, v.w));
 }
 
+/// Radiosity of every node; with linear senders two slopes a node too.
+struct NodeLight
+{
+    std::vector<glm::dvec4> mean, slopeX, slopeY;
+};
+
 /// Gathers at every node, then hands irradiance down: afterwards every leaf holds its whole indirect irradiance.
-void gather(const NodeTree& tree, const LinkTable& links, const std::vector<glm::dvec4>& radiosity, bool own,
+void gather(const NodeTree& tree, const LinkTable& links, const NodeLight& light, bool own,
             std::vector<glm::dvec4>& irradiance)
 {
+    const bool linear = !links.moment.empty();
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         glm::dvec4 sum(0.0);
-        for (u32 k = links.rowBegin[i]; k < links.rowBegin[i + 1]; ++k)
-            sum += double(links.factor[k]) * radiosity[own ? i : links.column[k]];
+        for (u32 k = links.rowBegin[i]; k < links.rowBegin[i + 1]; ++k) {
+            const u32 sender = own ? i : links.column[k];
+            sum += double(links.factor[k]) * light.mean[sender];
+            if (linear)
+                sum += double(links.moment[k].x) * light.slopeX[sender] + double(links.moment[k].y) * light.slopeY[sender];
+        }
         irradiance[i] = sum;
     }
     for (u32 i = tree.nodeCount(); i-- > 0;)
         if (const u32 parent = tree.nodes[i].parent; parent != kNoIndex) irradiance[i] += irradiance[parent];
 }
 
-/// Flux comes up: children have smaller numbers than their parents.
-void pullUp(const NodeTree& tree, std::vector<glm::dvec4>& radiosity)
+/// Flux comes up, and with it the slopes: children have smaller numbers than their parents.
+void pullUp(const NodeTree& tree, const LinkTable& links, NodeLight& light)
 {
     for (u32 i = tree.patchCount(); i < tree.nodeCount(); ++i) {
-        glm::dvec4 flux(0.0);
-        for (const u32 child : tree.childrenOf(i)) flux += tree.nodes[child].area * radiosity[child];
-        radiosity[i] = flux / tree.nodes[i].area;
+        const Node& node = tree.nodes[i];
+        glm::dvec4 flux(0.0), x(0.0), y(0.0);
+        for (u32 k = node.childBegin; k < node.childBegin + node.childCount; ++k) {
+            const u32 child = tree.children[k];
+            const double area = tree.nodes[child].area;
+            flux += area * light.mean[child];
+            if (light.slopeX.empty()) continue;
+            const gpu::ChildSlopeRecord& s = links.childSlopes[k];
+            x += area * (double(s.offsetX) * light.mean[child] + double(s.xx) * light.slopeX[child] +
+                         double(s.xy) * light.slopeY[child]);
+            y += area * (double(s.offsetY) * light.mean[child] + double(s.yx) * light.slopeX[child] +
+                         double(s.yy) * light.slopeY[child]);
+        }
+        light.mean[i] = flux / node.area;
+        if (light.slopeX.empty()) continue;
+        light.slopeX[i] = x / node.area;
+        light.slopeY[i] = y / node.area;
     }
 }
 
@@ -72,14 +98,23 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
     const std::vector<double> rowSum = patchRowSums(tree, links);
     for (u32 i = 0; i < count; ++i) contraction = glm::max(contraction, tree.patches[i].rho * rowSum[i]);
 
+    HELIO_CHECK(links.moment.empty() ||
+                    (links.moment.size() == links.column.size() && links.childSlopes.size() == tree.children.size()),
+                links.moment.size(), " moments and ", links.childSlopes.size(), " child slopes for ",
+                links.column.size(), " links");
     Solution solution;
-    std::vector<glm::dvec4>& radiosity = solution.radiosity;
+    NodeLight light;
+    std::vector<glm::dvec4>& radiosity = light.mean;
     radiosity.resize(tree.nodeCount());
+    if (!links.moment.empty()) {
+        light.slopeX.assign(tree.nodeCount(), glm::dvec4(0.0));
+        light.slopeY = light.slopeX;
+    }
     std::copy(first.begin(), first.end(), radiosity.begin());
-    pullUp(tree, radiosity);
+    pullUp(tree, links, light);
     std::vector<glm::dvec4> irradiance(tree.nodeCount());
     for (u32 k = 0; k < options.maxSweeps; ++k) {
-        gather(tree, links, radiosity, options.rule == UpdateRule::OwnRadiosity, irradiance);
+        gather(tree, links, light, options.rule == UpdateRule::OwnRadiosity, irradiance);
         double changed = 0.0, reflected = 0.0;
         glm::dvec4 largestChange(0.0), squares(0.0);
         for (u32 i = 0; i < count; ++i) {
@@ -95,7 +130,7 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
             largestChange = glm::max(largestChange, glm::abs(change));
             radiosity[i] = next;
         }
-        pullUp(tree, radiosity);
+        pullUp(tree, links, light);
         Sweep sweep;
         sweep.residual = reflected > 0.0 ? std::sqrt(changed / reflected) : 0.0;
         sweep.paperError = std::sqrt(largest(squares));
@@ -107,14 +142,16 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
         solution.sweeps.push_back(sweep);
         if (sweep.residual <= options.residual) break;
     }
-    gather(tree, links, radiosity, options.rule == UpdateRule::OwnRadiosity, irradiance);
+    gather(tree, links, light, options.rule == UpdateRule::OwnRadiosity, irradiance);
     solution.indirect.assign(irradiance.begin(), irradiance.begin() + count);
+    solution.radiosity = std::move(light.mean);
     return solution;
 }
 
 std::vector<double> denseFactors(const NodeTree& tree, const LinkTable& links)
 {
     const u32 n = tree.patchCount();
+    const std::vector<SlopeFrame> frames = slopeFrames(tree);
     // Patches below each node.
     std::vector<std::vector<u32>> below(tree.nodeCount());
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
@@ -126,9 +163,14 @@ std::vector<double> denseFactors(const NodeTree& tree, const LinkTable& links)
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         for (u32 k = links.rowBegin[i]; k < links.rowBegin[i + 1]; ++k) {
             const u32 sender = links.column[k];
-            for (const u32 r : below[i])
-                for (const u32 s : below[sender])
-                    dense[size_t(r) * n + s] += double(links.factor[k]) * tree.nodes[s].area / tree.nodes[sender].area;
+            for (const u32 s : below[sender]) {
+                double factor = double(links.factor[k]);
+                if (!links.moment.empty())
+                    factor += glm::dot(glm::dvec2(links.moment[k]),
+                                       frames[sender].at(tree.nodes[s].centroid - tree.nodes[sender].centroid));
+                factor *= tree.nodes[s].area / tree.nodes[sender].area;
+                for (const u32 r : below[i]) dense[size_t(r) * n + s] += factor;
+            }
         }
     }
     return dense;

@@ -24,6 +24,7 @@ struct PackContent
     std::vector<gpu::InstanceRecord> instances;
     std::vector<gpu::DrawRecord> draws;
     std::string nodeNames, surfaceNames, buildingIds; ///< '\n'-terminated names
+    std::vector<gpu::ChildSlopeRecord> childSlopes;
 
     /// Spans of the vectors, valid until one of them changes.
     TileView view() const
@@ -50,7 +51,8 @@ struct PackContent
                 .draws = draws,
                 .nodeNames = nodeNames,
                 .surfaceNames = surfaceNames,
-                .buildingIds = buildingIds};
+                .buildingIds = buildingIds,
+                .childSlopes = childSlopes};
     }
 };
 

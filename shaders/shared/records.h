@@ -43,6 +43,18 @@ struct NodeInfoRecord {
 };
 HELIO_SIZE(NodeInfoRecord, 48);
 
+// What a child of a planar node adds to the node's slopes, in slope coordinates (city/light/linear_senders.h). Children of
+// clusters have zeros.
+struct ChildSlopeRecord {
+    float offsetX;   // the child's centroid in the parent's coordinates
+    float offsetY;
+    float xx;        // parent's coordinates of the child's unit vectors: X_parent = offset + (xx xy; yx yy) X_child
+    float xy;
+    float yx;
+    float yy;
+};
+HELIO_SIZE(ChildSlopeRecord, 24);
+
 // A corner of what is drawn. Patch id on screen = vertex.patchId + instance.patchId.
 struct VertexRecord {
     vec3 position;   // m, tile frame; asset units for asset meshes

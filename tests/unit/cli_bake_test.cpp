@@ -157,8 +157,8 @@ TEST_F(BakeCli, RefusesDamagedPacks)
     const std::string index = *readTextFile(temp_ / "good/index"), tile = *readTextFile(temp_ / "good/tile-0000");
     std::string flipped = tile, version = tile, indexVersion = index;
     flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
-    version[8] = 2;
-    indexVersion.replace(indexVersion.find("1\n"), 1, "2");
+    version[8] = 3;
+    indexVersion.replace(indexVersion.find("2\n"), 1, "3");
     struct Damage
     {
         std::string index, tile;
@@ -167,7 +167,7 @@ TEST_F(BakeCli, RefusesDamagedPacks)
     for (const Damage& damage :
          {Damage{index, tile.substr(0, tile.size() - 1), "its header says"},
           Damage{index, tile.substr(0, 40), "ends inside the header"}, Damage{index, flipped, "the checksum"},
-          Damage{index, version, "version 2"}, Damage{indexVersion, tile, "version 2"},
+          Damage{index, version, "version 3"}, Damage{indexVersion, tile, "version 3"},
           Damage{index.substr(0, 99), tile, "checksum line"}, Damage{"{}", tile, "this is not the index"}}) {
         std::filesystem::create_directory(temp_ / "p");
         put("p/index", damage.index);

@@ -118,10 +118,10 @@ TEST(PackFormat, ExtraBytesAreRejected)
 TEST(PackFormat, AnotherVersionIsNamed)
 {
     std::vector<std::byte> bytes = encodeTile(samplePack().view()).bytes;
-    bytes[8] = std::byte{2};
+    bytes[8] = std::byte{3};
     sealTable(bytes);
     EXPECT_EQ(readCopy(bytes).error().message,
-              "tile: byte 8: version 2 of the format, this program reads version 1; bake the pack again");
+              "tile: byte 8: version 3 of the format, this program reads version 2; bake the pack again");
 }
 
 TEST(PackFormat, AForgedTableIsRejected)
@@ -221,7 +221,7 @@ TEST(PackIndexText, AnotherVersionIsNamed)
     std::string text = encodeIndex(samplePack().index, {1, 2});
     text.replace(text.find("1\n"), 1, "9");
     EXPECT_EQ(decodeIndex(text, "index").error().message,
-              "index: byte 16: version 9 of the format, this program reads version 1; bake the pack again");
+              "index: byte 16: version 9 of the format, this program reads version 2; bake the pack again");
 }
 
 /// Puts the right checksum into the last line.

@@ -7,27 +7,14 @@
 #include <map>
 #include <optional>
 
+#include "city/model/half_space.h"
+
 namespace helio::cga {
 
 namespace {
 
-constexpr double kMinArea = 1e-10; ///< m2: smaller loops are rounding
-constexpr double kSame = 1e-6;     ///< m: corners closer than this are one corner of the cut
-constexpr double kGap = 1e-3;      ///< m: a loop may be closed over a gap up to this
-
-bool contains(const Ring3& ring, const glm::dvec3& p, const glm::dvec3& normal)
-{
-    // Even-odd rule in the coordinate plane that the polygon faces most.
-    const glm::dvec3 n = glm::abs(normal);
-    const int u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z >= n.x && n.z >= n.y ? 1 : 2;
-    bool inside = false;
-    for (size_t k = 0, j = ring.size() - 1; k < ring.size(); j = k++) {
-        const glm::dvec3 &a = ring[k], &b = ring[j];
-        if ((a[v] > p[v]) != (b[v] > p[v]) && p[u] < (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v]) + a[u])
-            inside = !inside;
-    }
-    return inside;
-}
+constexpr double kSame = 1e-6; ///< m: corners closer than this are one corner of the cut
+constexpr double kGap = 1e-3;  ///< m: a loop may be closed over a gap up to this
 
 /// The corners of a cut, each once.
 class Corners
@@ -157,39 +144,6 @@ private:
 };
 
 } // namespace
-
-Ring3 withoutRepeats(const Ring3& ring)
-{
-    Ring3 result;
-    for (const glm::dvec3& p : ring)
-        if (result.empty() || glm::distance(result.back(), p) > 1e-9) result.push_back(p);
-    while (result.size() > 1 && glm::distance(result.front(), result.back()) <= 1e-9) result.pop_back();
-    return result;
-}
-
-std::vector<Polygon3> assembleLoops(std::vector<Ring3> loops, const glm::dvec3& normal)
-{
-    std::vector<Polygon3> polygons;
-    std::vector<Ring3> holes;
-    for (Ring3& loop : loops) {
-        const double signedArea = glm::dot(vectorArea(loop), normal);
-        if (std::abs(signedArea) < kMinArea) continue;
-        if (signedArea < 0.0)
-            holes.push_back(std::move(loop));
-        else
-            polygons.push_back({std::move(loop), {}});
-    }
-    for (Ring3& hole : holes)
-        for (Polygon3& polygon : polygons) {
-            // A corner of the hole may touch the outline, so the majority of its corners decides.
-            const auto inside = std::count_if(hole.begin(), hole.end(),
-                                              [&](const glm::dvec3& p) { return contains(polygon.outer, p, normal); });
-            if (polygons.size() > 1 && size_t(inside) * 2 <= hole.size()) continue;
-            polygon.holes.push_back(std::move(hole));
-            break;
-        }
-    return polygons;
-}
 
 void closeCut(Geometry& geometry, const std::function<bool(const glm::dvec3&)>& onPlane, const glm::dvec3& normal,
               const glm::dvec3& xAxis)

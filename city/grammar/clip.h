@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "city/grammar/geometry.h"
+#include "city/model/half_space.h"
 
 namespace helio::cga {
-
-/// Corners closer to a cutting plane than this lie on it, m.
-inline constexpr double kSnap = 1e-7;
 
 /// The part of a geometry with low <= p[axis] <= high (scope coordinates, m; axis 0..2). Concave polygons and holes are
 /// cut exactly, cut solids are closed again by caps. Both sides of a cut share their corners to the bit. May be empty.

@@ -2,28 +2,33 @@
 #include "city/light/bake_light.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "city/base/check.h"
+#include "city/light/linear_senders.h"
 #include "city/light/links.h"
 #include "city/light/paper_links.h"
 #include "city/light/reference_solver.h"
 #include "city/light/sky.h"
+#include "city/light/split_patches.h"
 
 namespace helio {
 namespace {
 
-constexpr double kDefaultEpsilon = 5e-4; // up to kSmallScene patches; see the table in README.md
-constexpr double kSmallScene = 4000.0;
+// What an error of E_indirect is made of, on scenes S and M at their default: README.md has the curves.
+constexpr double kEpsilonOfError = 0.06;    // of one link
+constexpr double kUnresolvedOfError = 0.53; // of the light inside patches
 constexpr double kDefaultPaperEpsilon = 0.02; // form factor
-constexpr u32 kTrainingSuns = 8;
+constexpr u32 kTrainingSuns = 20;
 
-/// Grows with the scene, so that time stays in bounds: about 70 links a patch at 10^4 patches, 35 at 5 10^5.
-double defaultEpsilon(u32 patchCount)
+/// 256 rays see the sky to about 1 % of the mean; finer bakes and small scenes get more.
+u32 chooseRays(double error, u32 patchCount)
 {
-    return kDefaultEpsilon * std::pow(std::max(1.0, double(patchCount) / kSmallScene), 0.3);
+    const double wanted = 256.0 * std::max(1.0, 0.02 / error) * (patchCount <= 10'000 ? 4.0 : 1.0);
+    return std::bit_floor(u32(std::clamp(wanted, 128.0, 1024.0)));
 }
 
 void checkTree(const NodeTree& tree)
@@ -115,32 +120,60 @@ private:
 
 } // namespace
 
+LightBake bakeLight(NodeTreeBuild& build, std::span<const AssetSummary> assets, const LightOptions& options)
+{
+    checkTree(build.tree);
+    HELIO_CHECK(options.error > 0.0 && options.splitGrowth >= 1.0, "error = ", options.error, ", growth = ",
+                options.splitGrowth);
+    if (options.method != LinkMethod::Heliopolis || options.splitGrowth <= 1.0) return bakeLight(build.tree, options);
+    LightStats split;
+    split.wholePatchCount = build.tree.patchCount();
+    Steps(options, split).run("splitting", [&](auto) {
+        const Visibility visibility(build.tree);
+        const SplitPlan plan = planSplits(build.tree, visibility, trainingSuns(kTrainingSuns), cuttablePatches(build),
+                                          {kUnresolvedOfError * options.error, options.splitGrowth, options.jobs});
+        split.unresolved = plan.unresolved;
+        splitPatches(build, assets, plan);
+        return 0;
+    });
+    LightBake bake = bakeLight(build.tree, options);
+    bake.stats.wholePatchCount = split.wholePatchCount;
+    bake.stats.unresolved = split.unresolved;
+    bake.stats.seconds.insert(bake.stats.seconds.begin(), split.seconds.begin(), split.seconds.end());
+    return bake;
+}
+
 LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
 {
     checkTree(tree);
     LightBake bake;
     LightStats& stats = bake.stats;
+    stats.wholePatchCount = stats.splitPatchCount = tree.patchCount();
     Steps steps(options, stats);
     const auto visibility = steps.run("ray structure", [&](auto) { return std::make_unique<Visibility>(tree); });
-    stats.raysPerPatch = options.raysPerPatch > 0 ? options.raysPerPatch : autoRaysPerPatch(tree.patchCount());
+    stats.raysPerPatch = options.raysPerPatch > 0 ? options.raysPerPatch : chooseRays(options.error, tree.patchCount());
     const SkyDome dome(options.skyPatches > 0 ? options.skyPatches : autoSkyPatches(tree.patchCount()));
     SkyScan scan = steps.run("sky", [&](auto progress) {
         return scanSky(tree, *visibility, stats.raysPerPatch, options.seed, options.jobs, progress, dome);
     });
     stats.rootPairCount = u32(scan.rootPairs.size());
 
-    const auto makeRows = [&](const auto& pairs) {
-        bake.links = steps.run("rows", [&](auto) { return linkTable(tree, std::span(pairs), options.jobs); });
+    const auto makeRows = [&](std::span<const NodeLink> links, std::vector<gpu::ChildSlopeRecord> slopes) {
+        bake.links = steps.run("rows", [&](auto) { return linkTable(tree, links, options.jobs, std::move(slopes)); });
     };
     const auto epsilonOr = [&](double chosen) {
         return stats.formFactorEpsilon = options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : chosen;
     };
     if (options.method == LinkMethod::Heliopolis) {
+        std::vector<gpu::ChildSlopeRecord> slopes;
+        if (!options.constantSenders) slopes = childSlopes(tree, slopeFrames(tree));
         const Training training = steps.run("training lights", [&](auto) {
-            return trainLights(tree, *visibility, scan.sky, kTrainingSuns, options.jobs);
+            return trainLights(tree, *visibility, scan.sky, slopes, kTrainingSuns, options.jobs);
         });
         LinkOptions link;
-        link.epsilon = epsilonOr(defaultEpsilon(tree.patchCount()));
+        link.linear = !options.constantSenders;
+        link.leafReceivers = options.leafReceivers;
+        link.epsilon = epsilonOr(kEpsilonOfError * options.error);
         if (options.raysPerLink > 0) link.raysPerLink = options.raysPerLink;
         stats.raysPerLink = link.raysPerLink;
         link.jobs = options.jobs;
@@ -150,13 +183,13 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
             return buildLinks(tree, *visibility, training, scan.rootPairs, link);
         });
         stats.pairsEvaluated = build.evaluated;
-        makeRows(build.pairs);
+        makeRows(build.links, std::move(slopes));
     } else {
         PaperOptions paper;
         paper.epsilon = epsilonOr(kDefaultPaperEpsilon);
         paper.cutoff = options.cutoff;
         paper.literal = options.method == LinkMethod::PaperLiteral;
-        makeRows(steps.run("links", [&](auto) { return paperLinks(tree, paper); }));
+        makeRows(steps.run("links", [&](auto) { return paperLinks(tree, paper); }), {});
     }
     bake.sky = std::move(scan.links);
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "city/light/light_tables.h"
-#include "city/model/node_tree.h"
+#include "city/model/build_nodes.h"
 
 namespace helio {
 
@@ -22,13 +22,21 @@ enum class LinkMethod : u8
 struct LightOptions
 {
     LinkMethod method = LinkMethod::Heliopolis;
+    /// Heliopolis: the error of E_indirect to aim at, rms over the mean, on any sun: chooses how far patches are split,
+    /// the links' epsilon and the rays. 0.005 .. 0.2; every halving costs two to three times the links.
+    double error = 0.02;
     /// Heliopolis: the irradiance error that one link may leave in a patch of mean size, as a fraction of the scene's
-    /// mean radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = the
-    /// method's default.
+    /// mean radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = by `error`,
+    /// or the paper's default.
     double formFactorEpsilon = 0.0;
-    u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = 64 million over the number of patches, within [128, 1024]
+    /// Heliopolis: largest number of patches after splitting / before; 1 = none is split, however wrong.
+    double splitGrowth = 4.0;
+    /// Heliopolis: a link sees its sender's mean radiosity alone (the paper's way), not its slope too.
+    bool constantSenders = false;
+    bool leafReceivers = false; ///< Heliopolis: links end at patches alone (rows without push-down)
+    u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = by `error` and the number of patches, 128 to 1024
     u32 skyPatches = 1;   ///< cells of the sky's dome; 1 = for uniform skies only, 0 = autoSkyPatches
-    u32 raysPerLink = 0;  ///< visibility rays of a pair of parts (a link has up to 16 such pairs); 0 = 4
+    u32 raysPerLink = 0;  ///< visibility rays of a pair of parts where a link is seen in part (it has up to 64 such); 0 = 2
     double cutoff = 22.5; ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
     u32 jobs = 0;         ///< threads; 0 = all cores. The result does not depend on it.
     u64 seed = 1;
@@ -52,6 +60,9 @@ struct LightStats
 {
     u64 linkCount = 0;              ///< directed links
     double linksPerPatch = 0.0;     ///< linkCount / patches
+    u32 wholePatchCount = 0;        ///< patches before splitting
+    u32 splitPatchCount = 0;        ///< and after it
+    double unresolved = 0.0;        ///< SplitPlan::unresolved
     u32 rootPairCount = 0;          ///< pairs of planar roots that may see each other
     u64 pairsEvaluated = 0;         ///< node pairs that the oracle looked at
     double formFactorEpsilon = 0.0; ///< as used: the option or the method's default
@@ -84,5 +95,8 @@ struct LightBake
 /// of the sky. Deterministic: the same tree and options give the same bytes for any number of jobs. Aborts
 /// (HELIO_CHECK) on a tree whose areas or indices are not valid.
 LightBake bakeLight(const NodeTree& tree, const LightOptions& options);
+
+/// The same, with patches split first where light varies inside them (splitPatches). `assets` as for buildNodes.
+LightBake bakeLight(NodeTreeBuild& build, std::span<const AssetSummary> assets, const LightOptions& options);
 
 } // namespace helio

@@ -5,314 +5,286 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
-
-#include "city/base/hash.h"
-#include "city/light/sequence.h"
 
 namespace helio {
 namespace {
 
+constexpr u32 kParts = NodeParts::kMost;
 // Shares of the worst case that turned out to be typical (scenes S and M of the reference set).
-constexpr double kWholeLinkError = 0.3;   // of the power of a link: its error if nothing is known about its inside
-constexpr double kInsidePartError = 0.1;  // of a part's variance: what the parts do not resolve
-constexpr double kVisibilityError = 0.1;  // of the variance that few rays leave
-constexpr double kSurelyTooCoarse = 30.0; // tolerances: power x (size / distance)^2 that no link was ever accepted with
-constexpr double kFarDistance = 1.5;      // in sums of radii: from here on the factor varies little over both nodes
-constexpr double kNearFactor = 0.1;       // form factor from which on rays are aimed by the cosine
-constexpr u32 kMaxRaysPerCell = 64;
+constexpr double kWholeLinkError = 0.3;    // of the power of a link: its error if nothing is known about its inside
+constexpr double kVisibilityError = 0.1;   // of the variance that few rays leave
+constexpr double kSurelyTooCoarse = 300.0; // tolerances: power x (size / distance)^2 that no link was ever accepted with
+constexpr double kFarDistance = 1.5;       // in sums of radii: from here on the factor varies little over both nodes
+constexpr float kExactDistance = 1.25f;     // in sums of radii: nearer parts exchange what their outlines say
+constexpr u32 kFirstRays = 16;             // of a pair of which nothing is known
+constexpr u32 kKnown = 40;                 // rays of the pairs above, all open or all blocked, after which few more do
+constexpr u32 kFewRays = 4;
+constexpr u32 kWholeRays = 8;              // of a link that is not judged by its parts
 
 double squaredRatio(double a, double b)
 {
     return b > 0.0 ? std::min(1.0, a * a / (b * b)) : 1.0;
 }
 
-/// Even-odd test in the coordinate plane that the polygon's plane is nearest to.
-bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
-{
-    const glm::dvec3 n = glm::abs(normal);
-    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z > n.x && n.z > n.y ? 1 : 2;
-    bool inside = false;
-    for (const Ring3& ring : rings) {
-        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-            const glm::dvec3 &a = ring[i], &b = ring[j];
-            if ((a[v] > point[v]) != (b[v] > point[v]) &&
-                point[u] < a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]))
-                inside = !inside;
-        }
-    }
-    return inside;
-}
-
 } // namespace
 
-LinkRefiner::Parts LinkRefiner::partsOf(u32 node) const
+const NodeParts& LinkRefiner::partsOf(u32 node, NodeParts& leaf) const
 {
-    Parts parts{{node}, 1};
-    while (true) {
-        // The largest part that can be opened; gaps count as size, for a full outline is what the factors are exact
-        // for.
-        u32 best = kNoIndex;
-        double bestArea = 0.0;
-        for (u32 i = 0; i < parts.count; ++i) {
-            const Node& n = tree_.nodes[parts.node[i]];
-            if (n.childCount == 0 || parts.count - 1 + n.childCount > kMaxParts) continue;
-            const double size = n.area / (n.coverage * n.coverage);
-            if (size > bestArea) {
-                bestArea = size;
-                best = i;
-            }
-        }
-        if (best == kNoIndex) return parts;
-        const std::span<const u32> children = tree_.childrenOf(parts.node[best]);
-        parts.node[best] = children[0];
-        for (u32 c = 1; c < children.size(); ++c) parts.node[parts.count++] = children[c];
-    }
+    if (!s_.tree.isLeaf(node)) return s_.parts[node - s_.tree.patchCount()];
+    leaf = leafParts(s_.tree, s_.transfer, s_.weight, node);
+    return leaf;
 }
 
-glm::dvec3 LinkRefiner::pointIn(u32 node, double u, double v) const
+double LinkRefiner::strength(u32 receiver, u32 sender, double exchange) const
 {
-    while (!tree_.isLeaf(node)) {
-        double rest = u * tree_.nodes[node].area;
-        const std::span<const u32> children = tree_.childrenOf(node);
-        u32 c = 0;
-        while (c + 1 < children.size() && rest >= tree_.nodes[children[c]].area)
-            rest -= tree_.nodes[children[c++]].area;
-        node = children[c];
-        u = std::min(rest / tree_.nodes[node].area, 0x1.fffffffffffffp-1);
-    }
-    return visibility_.pointOnPatch(node, u, v);
+    return exchange * exchange * double(s_.training.power[sender]) * s_.weight[receiver] / s_.tree.nodes[receiver].area;
 }
 
-void LinkRefiner::shoot(Cell& cell, u32 a, u32 b, u32 rays) const
+void LinkRefiner::link(u32 receiver, u32 sender, double exchange, double momentX, double momentY)
 {
-    const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(limits_.seed, a), b));
-    const bool swap = tree_.nodes[b].area < tree_.nodes[a].area;
-    const u32 small = swap ? b : a, large = swap ? a : b;
-    if (cell.transfer > kNearFactor * tree_.nodes[small].area) {
-        shootNear(cell, small, large, shift, rays);
-        return;
-    }
-    const glm::dvec3 &na = tree_.nodes[a].normal, &nb = tree_.nodes[b].normal;
-    for (const u32 end = cell.next + rays; cell.next < end; ++cell.next) {
-        const std::array<double, 4> x = shiftedSobol4(cell.next, shift);
-        const glm::dvec3 p = pointIn(a, x[0], x[1]), q = pointIn(b, x[2], x[3]), d = q - p;
-        const double ca = glm::dot(na, d), cb = -glm::dot(nb, d), d2 = glm::dot(d, d);
-        if (ca <= 0.0 || cb <= 0.0) continue;
-        const double kernel = ca * cb / (d2 * d2);
-        ++cell.rays;
-        cell.weight += kernel;
-        if (!visibility_.isBlocked(p, na, q, nb)) cell.open += kernel;
-    }
+    if (!(exchange > 0.0)) return;
+    const double area = s_.tree.nodes[receiver].area;
+    links_.push_back({receiver, sender, float(exchange / area), glm::vec2(momentX / area, momentY / area)});
 }
 
-void LinkRefiner::shootNear(Cell& cell, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const
+void LinkRefiner::weighNearParts(Pair& pair) const
 {
-    // Points that are uniform on both would seldom be near each other, yet near points exchange most: directions by the
-    // cosine from the smaller one find them. All that reach the larger one's outline count alike.
-    const glm::dvec3 &normal = tree_.nodes[small].normal, &other = tree_.nodes[large].normal,
-                     &onPlane = tree_.nodes[large].centroid;
-    const PlaneFrame frame = planeFrame(normal);
-    const u32 end = cell.rays + rays;
-    for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && cell.rays < end; --tries, ++cell.next) {
-        const std::array<double, 4> x = shiftedSobol4(cell.next, shift);
-        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-        const glm::dvec3 direction =
-            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
-        const double facing = -glm::dot(other, direction);
-        if (facing <= 0.0) continue;
-        const glm::dvec3 p = pointIn(small, x[2], x[3]);
-        const double height = glm::dot(other, p - onPlane);
-        if (height <= 0.0) continue;
-        const glm::dvec3 q = p + height / facing * direction;
-        if (!isInside(q, tree_.outlineOf(large), other)) continue;
-        ++cell.rays;
-        cell.weight += 1.0;
-        if (!visibility_.isBlocked(p, normal, q, other)) cell.open += 1.0;
-    }
-}
-
-double LinkRefiner::power(u32 a, u32 b, double exchange) const
-{
-    const double squared = exchange * exchange;
-    return squared * (double(training_.power[b]) * weight_[a] / tree_.nodes[a].area +
-                      double(training_.power[a]) * weight_[b] / tree_.nodes[b].area);
-}
-
-void LinkRefiner::link(u32 a, u32 b, double exchange)
-{
-    if (exchange > 0.0) pairs_.push_back({a, b, float(exchange)});
-}
-
-void LinkRefiner::addErrors(const Parts& mine, const Parts& theirs, u32 receiver, u32 sender, bool mineIsA,
-                            double meanOpen, double& senderError, double& receiverError) const
-{
-    const auto cellOf = [&](u32 i, u32 j) -> const Cell& {
-        return cells_[mineIsA ? i * kMaxParts + j : j * kMaxParts + i];
-    };
-    // Few rays a cell: its visibility is drawn towards the mean by one ray's worth.
-    const auto seen = [&](const Cell& cell) {
-        const double own = cell.weight > 0.0 ? cell.open / cell.weight : meanOpen;
-        return (own * double(cell.rays) + meanOpen) / double(cell.rays + 1);
-    };
-    const u32 lights = training_.lightCount;
-    const std::span<const float> senderMean = training_.of(sender);
-    double total = 0.0;
-    std::array<double, kMaxParts> received{};
-    for (u32 i = 0; i < mine.count; ++i) {
-        const double area = tree_.nodes[mine.node[i]].area, weight = weight_[mine.node[i]];
-        std::array<double, kMaxParts> g{};
-        for (u32 j = 0; j < theirs.count; ++j) {
-            const Cell& cell = cellOf(i, j);
-            if (cell.transfer <= 0.0) continue;
-            const double open = seen(cell);
-            g[j] = cell.transfer * open;
-            received[i] += g[j];
-            const double inside = kInsidePartError * double(training_.variance[theirs.node[j]]);
-            if (inside > 0.0) {
-                const double distance =
-                    glm::distance(tree_.nodes[mine.node[i]].centroid, tree_.nodes[theirs.node[j]].centroid);
-                const double partial = 0.25 * 4.0 * open * (1.0 - open);
-                senderError += weight * inside * g[j] * g[j] / area *
-                               (squaredRatio(transfer_.radius(theirs.node[j]), distance) + partial);
-            }
-        }
-        total += received[i];
-        double squares = 0.0;
-        for (u32 l = 0; l < lights && theirs.count > 1; ++l) {
-            double difference = 0.0;
-            for (u32 j = 0; j < theirs.count; ++j)
-                difference += g[j] * double(training_.of(theirs.node[j])[l] - senderMean[l]);
-            squares += difference * difference;
-        }
-        senderError += weight * squares / (double(lights) * area);
-    }
-    const double mean = total / tree_.nodes[receiver].area;
-    for (u32 i = 0; i < mine.count && mine.count > 1; ++i) {
-        const double area = tree_.nodes[mine.node[i]].area, difference = received[i] / area - mean;
-        receiverError += weight_[mine.node[i]] * area * difference * difference * double(training_.power[sender]);
-    }
-}
-
-LinkRefiner::Estimate LinkRefiner::estimate(const Parts& a, const Parts& b, u32 nodeA, u32 nodeB) const
-{
-    Estimate e;
-    double transfer = 0.0, seen = 0.0, unseen = 0.0;
-    u32 rays = 0;
+    const NodeParts &a = *pair.partsA, &b = *pair.partsB;
+    const glm::vec3 between(s_.tree.nodes[pair.b].centroid - s_.tree.nodes[pair.a].centroid);
+    pair.total = 0.0f;
     for (u32 i = 0; i < a.count; ++i) {
         for (u32 j = 0; j < b.count; ++j) {
-            const Cell& cell = cells_[i * kMaxParts + j];
-            transfer += cell.transfer;
-            rays += cell.rays;
-            if (cell.weight > 0.0)
-                seen += cell.transfer * cell.open / cell.weight;
-            else
-                unseen += cell.transfer;
+            const glm::vec3 d = between + glm::vec3(b.x[j] - a.x[i], b.y[j] - a.y[i], b.z[j] - a.z[i]);
+            const float reach = kExactDistance * (a.radius[i] + b.radius[j]);
+            if (glm::dot(d, d) < reach * reach) pair.exchange[i][j] = float(s_.transfer.between(a.node[i], b.node[j]));
+            pair.total += pair.exchange[i][j];
         }
     }
-    if (transfer <= 0.0) return e;
-    // Cells without a usable ray take the mean of the others; without any ray at all the pair counts as open.
-    const double meanOpen = transfer > unseen ? seen / (transfer - unseen) : 1.0;
-    e.exchange = meanOpen * transfer;
-    addErrors(a, b, nodeA, nodeB, true, meanOpen, e.errorB, e.errorA);
-    addErrors(b, a, nodeB, nodeA, false, meanOpen, e.errorA, e.errorB);
-    const double n = double(rays) + 2.0;
-    e.visibilityError = power(nodeA, nodeB, transfer) * (meanOpen * (1.0 - meanOpen) / n + 1.0 / (n * n));
-    return e;
 }
 
-bool LinkRefiner::isSurelyTooCoarse(u32 a, u32 b, double transfer) const
+void LinkRefiner::look(Pair& pair, u32 rays) const
 {
-    const double ra = tree_.isLeaf(a) ? 0.0 : transfer_.radius(a), rb = tree_.isLeaf(b) ? 0.0 : transfer_.radius(b);
-    const double distance = glm::distance(tree_.nodes[a].centroid, tree_.nodes[b].centroid);
-    if (power(a, b, transfer) * squaredRatio(std::max(ra, rb), distance) <= kSurelyTooCoarse * limits_.tolerance)
-        return false;
-    // Only a pair that sees something: what is blocked is better judged as a whole.
-    Cell cell;
-    cell.transfer = transfer;
-    shoot(cell, a, b, limits_.raysPerPart);
-    return cell.open > 0.0;
+    const NodeParts &a = *pair.partsA, &b = *pair.partsB;
+    std::array<u32, LinkRays::kMostRays> cell;
+    u32 count = 0;
+    if (rays == 0) {
+        for (u32 k = 0; k < a.count * b.count; ++k) {
+            const u32 i = k / b.count, j = k % b.count;
+            if (pair.exchange[i][j] > 0.0f) cell[count++] = i * kParts + j;
+        }
+    } else {
+        u32 k = 0;
+        float below = pair.exchange[0][0];
+        for (; count < rays; ++count) {
+            const float stratum = (float(count) + 0.5f) / float(rays) * pair.total;
+            while (below < stratum && k + 1 < a.count * b.count) {
+                ++k;
+                below += pair.exchange[k / b.count][k % b.count];
+            }
+            cell[count] = k / b.count * kParts + k % b.count;
+        }
+    }
+    std::array<u32, LinkRays::kMostRays> from, to;
+    std::array<bool, LinkRays::kMostRays> open;
+    for (u32 k = 0; k < count; ++k) {
+        from[k] = a.node[cell[k] / kParts];
+        to[k] = b.node[cell[k] % kParts];
+    }
+    s_.rays.areOpen(std::span(from).first(count), std::span(to).first(count), pair.rays,
+                    std::span(open).first(count));
+    for (u32 k = 0; k < count; ++k) {
+        pair.asked[cell[k] / kParts][cell[k] % kParts] += 1.0f;
+        if (open[k]) pair.seen[cell[k] / kParts][cell[k] % kParts] += 1.0f;
+    }
+    pair.rays += count;
+    weighRays(pair);
 }
 
-void LinkRefiner::refine(u32 nodeA, u32 nodeB)
+void LinkRefiner::weighRays(Pair& pair)
+{
+    NodeParts::Row rowSeen{}, rowAsked{}, columnSeen{}, columnAsked{};
+    float seen = 0.0f, asked = 0.0f;
+    for (u32 i = 0; i < kParts; ++i) {
+        for (u32 j = 0; j < kParts; ++j) {
+            rowSeen[i] += pair.seen[i][j];
+            rowAsked[i] += pair.asked[i][j];
+            columnSeen[j] += pair.seen[i][j];
+            columnAsked[j] += pair.asked[i][j];
+        }
+        seen += rowSeen[i];
+        asked += rowAsked[i];
+    }
+    const float mean = asked > 0.0f ? seen / asked : 1.0f;
+    if (mean <= 0.0f || mean >= 1.0f) {
+        for (NodeParts::Row& row : pair.open) row.fill(mean);
+        pair.mean = double(mean);
+        return;
+    }
+    // A pair of parts sees what its own rays say, drawn by one ray's worth towards what its row and column say.
+    for (u32 j = 0; j < kParts; ++j) {
+        rowSeen[j] = (rowSeen[j] + mean) / (rowAsked[j] + 1.0f);
+        columnSeen[j] = (columnSeen[j] + mean) / (columnAsked[j] + 1.0f) / mean;
+    }
+    double visible = 0.0;
+    for (u32 i = 0; i < kParts; ++i) {
+        float sum = 0.0f;
+        for (u32 j = 0; j < kParts; ++j) {
+            const float guess = std::min(1.0f, rowSeen[i] * columnSeen[j]);
+            pair.open[i][j] = (pair.seen[i][j] + guess) / (pair.asked[i][j] + 1.0f);
+        }
+        for (u32 j = 0; j < kParts; ++j) sum += pair.exchange[i][j] * pair.open[i][j];
+        visible += double(sum);
+    }
+    pair.mean = visible / double(pair.total);
+}
+
+LinkRefiner::Verdict LinkRefiner::judge(const Pair& pair, bool toA) const
+{
+    const u32 receiver = toA ? pair.a : pair.b, sender = toA ? pair.b : pair.a;
+    PartMatrix exchange;
+    for (u32 i = 0; i < kParts; ++i)
+        for (u32 j = 0; j < kParts; ++j) exchange[i][j] = pair.exchange[i][j] * pair.open[i][j];
+    const Training& training = s_.training;
+    Verdict v;
+    v.error = toA ? linkError(*pair.partsA, *pair.partsB, exchange, pair.open, pair.distance, training.power[sender],
+                              training.slopePower[sender])
+                  : linkError(*pair.partsB, *pair.partsA, transposed(exchange), transposed(pair.open), pair.distance,
+                              training.power[sender], training.slopePower[sender]);
+    const double n = double(std::max(pair.rays, pair.knownRays)) + 2.0;
+    v.visibilityError =
+        strength(receiver, sender, double(pair.total)) * (pair.mean * (1.0 - pair.mean) / n + 1.0 / (n * n));
+    v.good = double(v.error.sender) + double(v.error.receiver) + kVisibilityError * v.visibilityError <= s_.tolerance &&
+             (!s_.leafReceivers || s_.tree.isLeaf(receiver));
+    return v;
+}
+
+u32 LinkRefiner::faintDirections(const Pair& pair) const
+{
+    // Only between nodes that are far apart does the whole exchange say how large its parts can be.
+    if (double(pair.distance) <= kFarDistance * (s_.transfer.radius(pair.a) + s_.transfer.radius(pair.b))) return 0;
+    const auto isFaint = [&](u32 receiver, u32 sender) {
+        return (!s_.leafReceivers || s_.tree.isLeaf(receiver)) &&
+               kWholeLinkError * strength(receiver, sender, double(pair.total)) <= s_.tolerance;
+    };
+    return (isFaint(pair.a, pair.b) ? kToA : 0) | (isFaint(pair.b, pair.a) ? kToB : 0);
+}
+
+bool LinkRefiner::isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sight) const
+{
+    const double ra = s_.tree.isLeaf(pair.a) ? 0.0 : s_.transfer.radius(pair.a),
+                 rb = s_.tree.isLeaf(pair.b) ? 0.0 : s_.transfer.radius(pair.b),
+                 ratio = squaredRatio(std::max(ra, rb), double(pair.distance)), total = double(pair.total);
+    const double limit = kSurelyTooCoarse * s_.tolerance;
+    if ((directions & kToA) != 0 && strength(pair.a, pair.b, total) * ratio <= limit) return false;
+    if ((directions & kToB) != 0 && strength(pair.b, pair.a, total) * ratio <= limit) return false;
+    // Only a pair that sees something: what is blocked is better judged as a whole.
+    return sight.open > 0 || s_.rays.openShare(pair.a, pair.b, total, kWholeRays, 0.0) > 0.0;
+}
+
+void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, u32 directions, Sight sight)
+{
+    double power = 0.0;
+    if ((directions & kToA) != 0) power = std::max(power, strength(a, b, transfer));
+    if ((directions & kToB) != 0) power = std::max(power, strength(b, a, transfer));
+    // Where the pairs above were wholly open or blocked the first rays, if they agree, are enough.
+    const u32 known = std::max(sight.open, sight.blocked);
+    const double open = s_.rays.openShare(a, b, transfer, known >= kKnown ? kFewRays : kWholeRays,
+                                          known > 0 ? 0.0 : kVisibilityError * power / s_.tolerance);
+    if ((directions & kToA) != 0) link(a, b, transfer * open, 0.0, 0.0);
+    if ((directions & kToB) != 0) link(b, a, transfer * open, 0.0, 0.0);
+}
+
+bool LinkRefiner::splitsReceiver(const Verdict& v, u32 receiver, u32 sender) const
+{
+    if (s_.tree.isLeaf(receiver)) return false;
+    if (s_.tree.isLeaf(sender) || s_.leafReceivers) return true;
+    if (kVisibilityError * v.visibilityError > double(v.error.sender + v.error.receiver))
+        return s_.tree.nodes[receiver].area >= s_.tree.nodes[sender].area;
+    // Halving the larger one helps the later levels more than the errors of this one say.
+    return double(v.error.receiver) * s_.transfer.radius(receiver) > double(v.error.sender) * s_.transfer.radius(sender);
+}
+
+void LinkRefiner::refine(u32 nodeA, u32 nodeB, u32 directions, Sight sight)
 {
     ++evaluated_;
-    const double whole = transfer_.between(nodeA, nodeB);
-    if (whole <= 0.0) return;
-    const bool leaves = tree_.isLeaf(nodeA) && tree_.isLeaf(nodeB);
-    // Only between nodes that are far apart does the whole exchange say how large its parts can be.
-    const double reach = kFarDistance * (transfer_.radius(nodeA) + transfer_.radius(nodeB));
-    const bool faint = kWholeLinkError * power(nodeA, nodeB, whole) <= limits_.tolerance &&
-                       glm::distance(tree_.nodes[nodeA].centroid, tree_.nodes[nodeB].centroid) > reach;
-    if (leaves || faint) {
-        Cell cell;
-        cell.transfer = whole;
-        const double strength = kVisibilityError * power(nodeA, nodeB, whole);
-        for (u32 asked = 0;;) {
-            const u32 batch = std::max(asked, limits_.raysPerPart); // doubles the number
-            shoot(cell, nodeA, nodeB, batch);
-            asked += batch;
-            const double open = cell.weight > 0.0 ? cell.open / cell.weight : 1.0, n = double(cell.rays) + 2.0;
-            if (asked >= kMaxRaysPerCell || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= limits_.tolerance) {
-                link(nodeA, nodeB, whole * open);
-                return;
-            }
-        }
-    }
-
-    if (isSurelyTooCoarse(nodeA, nodeB, whole)) {
-        const bool larger = transfer_.radius(nodeA) >= transfer_.radius(nodeB);
-        split(nodeA, nodeB, tree_.isLeaf(nodeB) || (!tree_.isLeaf(nodeA) && larger));
+    const NodeTree& tree = s_.tree;
+    if (!s_.transfer.faceEachOther(nodeA, nodeB)) return;
+    const bool leafA = tree.isLeaf(nodeA), leafB = tree.isLeaf(nodeB);
+    if (leafA && leafB) {
+        const double transfer = s_.transfer.between(nodeA, nodeB);
+        if (transfer > 0.0) linkWhole(nodeA, nodeB, transfer, directions, sight);
         return;
     }
-    const Parts a = partsOf(nodeA), b = partsOf(nodeB);
+    NodeParts leaf;
+    Pair pair;
+    pair.a = nodeA;
+    pair.b = nodeB;
+    pair.partsA = &partsOf(nodeA, leaf);
+    pair.partsB = &partsOf(nodeB, leaf);
+    const glm::vec3 between(tree.nodes[nodeB].centroid - tree.nodes[nodeA].centroid);
+    pair.distance = glm::length(between);
+    pair.total = partExchange(*pair.partsA, *pair.partsB, between, glm::vec3(tree.nodes[nodeA].normal),
+                              glm::vec3(tree.nodes[nodeB].normal), pair.exchange);
+    if (pair.total <= 0.0f) { // No centroid faces another: what there is stands at the horizon.
+        const double transfer = s_.transfer.between(nodeA, nodeB);
+        if (transfer <= 0.0) return;
+        pair.total = float(transfer);
+        for (NodeParts::Row& row : pair.exchange) row.fill(0.0f);
+        pair.exchange[0][0] = pair.total;
+    }
+    if ((faintDirections(pair) & directions) == directions) {
+        linkWhole(nodeA, nodeB, s_.transfer.between(nodeA, nodeB), directions, sight);
+        return;
+    }
     // A node with more children than fit cannot be judged from its parts: it is opened unseen.
-    const bool wideA = a.count == 1 && !tree_.isLeaf(nodeA), wideB = b.count == 1 && !tree_.isLeaf(nodeB);
-    if (wideA || wideB) {
-        split(nodeA, nodeB, wideA);
+    const bool wideA = pair.partsA->count == 1 && !leafA, wideB = pair.partsB->count == 1 && !leafB;
+    const bool coarse = !wideA && !wideB && isSurelyTooCoarse(pair, directions, sight);
+    if (wideA || wideB || coarse) {
+        const bool larger = s_.transfer.radius(nodeA) >= s_.transfer.radius(nodeB);
+        const bool splitA = coarse ? leafB || (!leafA && larger) : wideA;
+        split(nodeA, nodeB, splitA ? directions : 0, splitA ? 0 : directions, sight);
         return;
     }
-    const auto shootAll = [&](u32 rays) {
-        for (u32 i = 0; i < a.count; ++i)
-            for (u32 j = 0; j < b.count; ++j)
-                if (Cell& cell = cells_[i * kMaxParts + j]; cell.transfer > 0.0)
-                    shoot(cell, a.node[i], b.node[j], rays);
+    const u32 known = std::max(sight.open, sight.blocked);
+    weighNearParts(pair);
+    if (pair.total <= 0.0f) return;
+    look(pair, known == 0 ? kFirstRays : known < kKnown ? kWholeRays : kFewRays);
+    sight.open = pair.mean >= 1.0 ? sight.open + pair.rays : 0;
+    sight.blocked = pair.mean <= 0.0 ? sight.blocked + pair.rays : 0;
+    pair.knownRays = std::max({pair.rays, sight.open, sight.blocked});
+    Verdict toA, toB;
+    const auto judgeBoth = [&] {
+        if ((directions & kToA) != 0) toA = judge(pair, true);
+        if ((directions & kToB) != 0) toB = judge(pair, false);
     };
-    for (u32 i = 0; i < a.count; ++i) {
-        for (u32 j = 0; j < b.count; ++j) {
-            Cell& cell = cells_[i * kMaxParts + j] = Cell();
-            cell.transfer = transfer_.between(a.node[i], b.node[j]);
-        }
+    judgeBoth();
+    // Good enough to be a link: more rays sharpen its visibility where that is mixed.
+    const auto isMixed = [&](const Verdict& v) { return v.good && v.visibilityError > s_.tolerance; };
+    const bool mixed = pair.mean > 0.0 && pair.mean < 1.0;
+    if (isMixed(toA) || isMixed(toB) || (mixed && (toA.good || toB.good))) {
+        for (u32 k = 0; k < s_.raysPerPart; ++k) look(pair, 0);
+        judgeBoth();
     }
-    shootAll(1);
-    Estimate e = estimate(a, b, nodeA, nodeB);
-    if (e.errorA + e.errorB + kVisibilityError * e.visibilityError <= limits_.tolerance) {
-        // Good enough to be a link: the remaining rays sharpen its visibility where that is mixed.
-        if (e.visibilityError > limits_.tolerance && limits_.raysPerPart > 1) {
-            shootAll(limits_.raysPerPart - 1);
-            e = estimate(a, b, nodeA, nodeB);
-        }
-        if (e.errorA + e.errorB + kVisibilityError * e.visibilityError <= limits_.tolerance) {
-            link(nodeA, nodeB, e.exchange);
-            return;
-        }
+    if (toA.good || toB.good) {
+        // The parts tell how the exchange is spread, the outlines how much it is.
+        const double transfer = s_.transfer.between(nodeA, nodeB), scale = transfer / double(pair.total);
+        if (toA.good)
+            link(nodeA, nodeB, transfer * pair.mean, scale * double(toA.error.momentX), scale * double(toA.error.momentY));
+        if (toB.good)
+            link(nodeB, nodeA, transfer * pair.mean, scale * double(toB.error.momentX), scale * double(toB.error.momentY));
     }
-    // Halving the larger one helps the later levels more than the errors of this one say.
-    bool splitA = e.errorA * transfer_.radius(nodeA) > e.errorB * transfer_.radius(nodeB);
-    if (kVisibilityError * e.visibilityError > e.errorA + e.errorB)
-        splitA = tree_.nodes[nodeA].area >= tree_.nodes[nodeB].area;
-    if (tree_.isLeaf(nodeA)) splitA = false;
-    if (tree_.isLeaf(nodeB)) splitA = true;
-    split(nodeA, nodeB, splitA);
+    u32 openA = 0, openB = 0;
+    if ((directions & kToA) != 0 && !toA.good) (splitsReceiver(toA, nodeA, nodeB) ? openA : openB) |= kToA;
+    if ((directions & kToB) != 0 && !toB.good) (splitsReceiver(toB, nodeB, nodeA) ? openB : openA) |= kToB;
+    split(nodeA, nodeB, openA, openB, sight);
 }
 
-void LinkRefiner::split(u32 nodeA, u32 nodeB, bool splitA)
+void LinkRefiner::split(u32 nodeA, u32 nodeB, u32 openA, u32 openB, Sight sight)
 {
-    if (splitA) {
-        for (const u32 child : tree_.childrenOf(nodeA)) refine(child, nodeB);
-    } else {
-        for (const u32 child : tree_.childrenOf(nodeB)) refine(nodeA, child);
-    }
+    if (openA != 0)
+        for (const u32 child : s_.tree.childrenOf(nodeA)) refine(child, nodeB, openA, sight);
+    if (openB != 0)
+        for (const u32 child : s_.tree.childrenOf(nodeB)) refine(nodeA, child, openB, sight);
 }
 
 } // namespace helio

@@ -2,85 +2,94 @@
 #pragma once
 #include <array>
 
+#include "city/light/link_kernel.h"
+#include "city/light/link_rays.h"
 #include "city/light/links.h"
-#include "city/light/transfer.h"
 
 namespace helio {
+
+/// What a refiner needs to know of a scene; shared by all threads.
+struct RefinerScene
+{
+    const NodeTree& tree;
+    const Training& training;
+    const Transfer& transfer;
+    const LinkRays& rays;
+    std::span<const NodeParts> parts; ///< nodeParts()
+    std::span<const double> weight;   ///< per node, 1/m2: what a squared error of irradiance on a square metre counts
+    double tolerance = 0.0;           ///< largest weighted squared error of a link (radiosity: area mean 1)
+    u32 raysPerPart = 2;              ///< of a pair of parts, where a link is seen in part
+    bool leafReceivers = false;       ///< LinkOptions::leafReceivers
+};
 
 /// Refines pairs of nodes until each is accurate enough to be one link. One object serves one thread.
 class LinkRefiner
 {
 public:
-    struct Limits
-    {
-        double tolerance; ///< largest weighted squared error of a link (radiosity scaled to an area mean of 1)
-        u32 raysPerPart;
-        u64 seed;
-    };
+    static constexpr u32 kToA = 1, kToB = 2; ///< which of two nodes receives
 
-    LinkRefiner(const NodeTree& tree, const Visibility& visibility, const Training& training, const Transfer& transfer,
-                std::span<const double> weight, const Limits& limits)
-        : tree_(tree), visibility_(visibility), training_(training), transfer_(transfer), weight_(weight),
-          limits_(limits)
-    {
-    }
+    explicit LinkRefiner(const RefinerScene& scene) : s_(scene) {}
 
-    /// Appends the links between two planar nodes, neither an ancestor of the other, and all that is below them.
-    void refine(u32 a, u32 b);
+    /// Appends the links between two planar nodes, neither an ancestor of the other, and all that is below them, in
+    /// both directions.
+    void refine(u32 a, u32 b) { refine(a, b, kToA | kToB, Sight{}); }
 
-    std::vector<NodePair> takePairs() { return std::move(pairs_); }
+    std::vector<NodeLink> takeLinks() { return std::move(links_); }
     u64 evaluated() const { return evaluated_; }
 
 private:
-    static constexpr u32 kMaxParts = 4;
-
-    /// Descendants that make up a node, the node itself if it is a leaf.
-    struct Parts
+    /// What the pairs above a pair say of it: rays that were all open, or all blocked; none if they were mixed.
+    struct Sight
     {
-        std::array<u32, kMaxParts> node;
-        u32 count;
+        u32 open = 0, blocked = 0;
     };
 
-    /// Exchange and visibility between one part of a and one of b.
-    struct Cell
+    /// A pair of nodes at hand.
+    struct Pair
     {
-        double transfer = 0.0;           // m2, without occlusion
-        double open = 0.0, weight = 0.0; // rays so far, weighted with their kernel
-        u32 rays = 0;                    // that had a weight
-        u32 next = 0;                    // of the sample sequence
+        u32 a = 0, b = 0;
+        const NodeParts* partsA = nullptr;
+        const NodeParts* partsB = nullptr;
+        float distance = 0.0f; // m, of the centroids
+        float total = 0.0f;    // m2, of `exchange`
+        PartMatrix exchange;   // m2, without occlusion, [part of a][part of b]
+        PartMatrix seen{};     // rays that met nothing
+        PartMatrix asked{};    // rays
+        PartMatrix open;       // visible share that they tell
+        double mean = 1.0;     // of `open`, weighted with the exchange
+        u32 rays = 0;
+        u32 knownRays = 0;     // with those of the pairs above that agree
     };
 
-    struct Estimate
+    /// Whether one direction of a pair may be one link.
+    struct Verdict
     {
-        double exchange = 0.0; // m2, with visibility
-        double errorA = 0.0;   // weighted squared error that splitting a would remove
-        double errorB = 0.0;
-        double visibilityError = 0.0; // the same for the number of rays
+        LinkError error;
+        double visibilityError = 0.0; // weighted squared error for the number of rays
+        bool good = false;
     };
 
-    Parts partsOf(u32 node) const;
-    glm::dvec3 pointIn(u32 node, double u, double v) const;
-    void shoot(Cell& cell, u32 a, u32 b, u32 rays) const;
-    void shootNear(Cell& cell, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const;
-    Estimate estimate(const Parts& a, const Parts& b, u32 nodeA, u32 nodeB) const;
-    /// Squared error of the irradiance of one side for a constant sender: parts `mine` receive, `theirs` send.
-    void addErrors(const Parts& mine, const Parts& theirs, u32 receiver, u32 sender, bool mineIsA, double meanOpen,
-                   double& senderError, double& receiverError) const;
-    double power(u32 a, u32 b, double exchange) const;
-    /// True if a pair that is not blocked as a whole exchanges so much, so near, that its parts need not be looked at.
-    bool isSurelyTooCoarse(u32 a, u32 b, double transfer) const;
-    void link(u32 a, u32 b, double exchange);
-    void split(u32 a, u32 b, bool splitA);
+    const NodeParts& partsOf(u32 node, NodeParts& leaf) const;
+    void refine(u32 a, u32 b, u32 directions, Sight sight);
+    /// Puts the exact exchange where parts are so near that points do not tell it.
+    void weighNearParts(Pair& pair) const;
+    /// `rays` more rays, spread over the parts by what they exchange; 0: one more for each pair of parts.
+    void look(Pair& pair, u32 rays) const;
+    static void weighRays(Pair& pair);
+    Verdict judge(const Pair& pair, bool toA) const;
+    bool splitsReceiver(const Verdict& verdict, u32 receiver, u32 sender) const;
+    /// Weighted squared irradiance of the receiver: the error if nothing were known of the sender.
+    double strength(u32 receiver, u32 sender, double exchange) const;
+    u32 faintDirections(const Pair& pair) const;
+    bool isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sight) const;
+    void link(u32 receiver, u32 sender, double exchange, double momentX, double momentY);
+    void linkWhole(u32 a, u32 b, double transfer, u32 directions, Sight sight);
+    /// Goes on with the children of a in the directions `openA`, with those of b in the directions `openB`.
+    void split(u32 a, u32 b, u32 openA, u32 openB, Sight sight);
 
-    const NodeTree& tree_;
-    const Visibility& visibility_;
-    const Training& training_;
-    const Transfer& transfer_;
-    std::span<const double> weight_; // per node, 1/m2: what a squared error there counts
-    Limits limits_;
-    std::vector<NodePair> pairs_;
+    const RefinerScene& s_;
+    std::vector<NodeLink> links_;
     u64 evaluated_ = 0;
-    std::array<Cell, kMaxParts * kMaxParts> cells_; // of the pair at hand, [part of a * kMaxParts + part of b]
 };
 
 } // namespace helio

@@ -39,7 +39,7 @@ public:
         }
     }
 
-    std::vector<FactorPair> run()
+    std::vector<NodeLink> run()
     {
         std::vector<u32> roots;
         for (u32 i = 0; i < tree_.nodeCount(); ++i)
@@ -53,7 +53,7 @@ public:
                 findLinks(std::min(roots[i], roots[j]), std::max(roots[i], roots[j]));
             }
         }
-        return std::move(pairs_);
+        return std::move(links_);
     }
 
 private:
@@ -84,14 +84,15 @@ private:
         } else if (splitB) {
             for (const u32 child : tree_.childrenOf(b)) findLinks(a, child);
         } else if (fab > 0.0) {
-            pairs_.push_back({a, b, float(fab), float(fba)});
+            links_.push_back({.receiver = a, .sender = b, .factor = float(fab)});
+            links_.push_back({.receiver = b, .sender = a, .factor = float(fba)});
         }
     }
 
     const NodeTree& tree_;
     PaperOptions options_;
     std::vector<Box> box_;
-    std::vector<FactorPair> pairs_;
+    std::vector<NodeLink> links_;
 };
 
 } // namespace
@@ -104,7 +105,7 @@ double discFactor(const Node& from, const Node& to)
     return to.area * a * b / d2 / (std::numbers::pi * d2 + to.area);
 }
 
-std::vector<FactorPair> paperLinks(const NodeTree& tree, const PaperOptions& options)
+std::vector<NodeLink> paperLinks(const NodeTree& tree, const PaperOptions& options)
 {
     HELIO_CHECK(options.epsilon > 0.0 && options.cutoff >= 0.0, "epsilon = ", options.epsilon,
                 ", cutoff = ", options.cutoff);

@@ -24,6 +24,6 @@ double discFactor(const Node& from, const Node& to);
 /// that of the centroids, the *first* node is refined where F12 is large (the second is what looks large), and where
 /// the node to refine is a leaf the pair is lost. Each direction keeps its own estimate. Order of work: pairs of roots
 /// within the cut-off along x, found by a sweep; without a cut-off all pairs, O(n^2).
-std::vector<FactorPair> paperLinks(const NodeTree& tree, const PaperOptions& options);
+std::vector<NodeLink> paperLinks(const NodeTree& tree, const PaperOptions& options);
 
 } // namespace helio

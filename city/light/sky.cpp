@@ -2,7 +2,6 @@
 #include "city/light/sky.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -71,11 +70,6 @@ std::vector<u32> planarRoots(const NodeTree& tree)
         root[i] = tree.isPlanarRoot(i) ? i : root[tree.nodes[i].parent];
     }
     return root;
-}
-
-u32 autoRaysPerPatch(u32 patchCount)
-{
-    return std::bit_floor(std::clamp(64'000'000u / std::max(1u, patchCount), 128u, 1024u));
 }
 
 u32 autoSkyPatches(u32 patchCount)

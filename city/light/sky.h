@@ -25,10 +25,6 @@ struct SkyScan
 /// Planar root above each node (itself for a root); kNoIndex for clusters.
 std::vector<u32> planarRoots(const NodeTree& tree);
 
-/// Number of rays that scanSky takes for 0: 64 million over the number of patches as a power of two, within [128,
-/// 1024].
-u32 autoRaysPerPatch(u32 patchCount);
-
 /// Number of cells of the sky's dome that a bake takes for 0: 96, with which the sky's rows are about a fifth of a
 /// pack; 1 beyond 200,000 patches.
 u32 autoSkyPatches(u32 patchCount);

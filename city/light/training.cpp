@@ -2,6 +2,7 @@
 #include "city/light/training.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "city/base/parallel.h"
@@ -28,16 +29,24 @@ bool normalise(const NodeTree& tree, std::vector<double>& light)
 
 } // namespace
 
-Training trainLights(const NodeTree& tree, const Visibility& visibility, std::span<const float> sky, u32 suns, u32 jobs)
+std::vector<glm::dvec3> trainingSuns(u32 count)
+{
+    std::vector<glm::dvec3> suns;
+    for (u32 s = 0; s < count; ++s) {
+        const double share = (double(s) + 0.5) / double(count);
+        const double sine = std::sin(8.0 * kDegree) + share * (std::sin(75.0 * kDegree) - std::sin(8.0 * kDegree));
+        suns.push_back(sunDirection((double(s) * 137.508 + 17.0) * kDegree, std::asin(sine)));
+    }
+    return suns;
+}
+
+Training trainLights(const NodeTree& tree, const Visibility& visibility, std::span<const float> sky,
+                     std::span<const gpu::ChildSlopeRecord> slopes, u32 suns, u32 jobs)
 {
     const u32 count = tree.patchCount();
     std::vector<std::vector<double>> lights;
-    for (u32 s = 0; s < suns; ++s) {
-        const double share = (double(s) + 0.5) / double(suns);
-        const double sine = std::sin(8.0 * kDegree) + share * (std::sin(75.0 * kDegree) - std::sin(8.0 * kDegree));
-        const glm::dvec3 toSun = sunDirection((double(s) * 137.508 + 17.0) * kDegree, std::asin(sine));
+    for (const glm::dvec3& toSun : trainingSuns(suns))
         lights.push_back(raySun(tree, visibility, toSun, kRaysPerSun, jobs));
-    }
     lights.emplace_back(sky.begin(), sky.end());
     lights.emplace_back(count, 1.0);
     for (std::vector<double>& light : lights)
@@ -49,29 +58,50 @@ Training trainLights(const NodeTree& tree, const Visibility& visibility, std::sp
 
     Training training;
     const u32 n = training.lightCount = u32(lights.size());
+    training.patchCount = count;
     training.radiosity.resize(size_t(tree.nodeCount()) * n);
+    if (!slopes.empty()) training.slope.resize(size_t(tree.nodeCount() - count) * n);
     training.power.resize(tree.nodeCount());
-    training.variance.resize(tree.nodeCount());
+    training.slopePower.assign(tree.nodeCount(), 0.0f);
+    training.variance.assign(tree.nodeCount(), 0.0f);
     std::vector<double> mean(n);
+    std::vector<glm::dvec2> slope(n);
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
-        double squares = 0.0, power = 0.0;
+        const Node& node = tree.nodes[i];
+        double squares = 0.0, power = 0.0, slopePower = 0.0;
         std::fill(mean.begin(), mean.end(), 0.0);
-        if (tree.isLeaf(i)) {
+        std::fill(slope.begin(), slope.end(), glm::dvec2(0.0));
+        if (tree.isLeaf(i))
             for (u32 l = 0; l < n; ++l) mean[l] = lights[l][i];
-        } else {
-            // Mean square below = variance inside the children + their power.
-            for (const u32 child : tree.childrenOf(i)) {
-                const double weight = tree.nodes[child].area / tree.nodes[i].area;
-                for (u32 l = 0; l < n; ++l) mean[l] += weight * double(training.of(child)[l]);
-                squares += weight * double(training.variance[child] + training.power[child]);
+        // Mean square below = what varies inside the children + their slopes' and their means' power.
+        for (u32 k = node.childBegin; k < node.childBegin + node.childCount; ++k) {
+            const u32 child = tree.children[k];
+            const double weight = tree.nodes[child].area / node.area;
+            const std::span<const float> childMean = training.of(child);
+            const std::span<const glm::vec2> childSlope = training.slopeOf(child);
+            for (u32 l = 0; l < n; ++l) mean[l] += weight * double(childMean[l]);
+            for (u32 l = 0; l < n && !slopes.empty(); ++l) {
+                const gpu::ChildSlopeRecord& s = slopes[k];
+                slope[l] += weight * double(childMean[l]) * glm::dvec2(s.offsetX, s.offsetY);
+                if (!childSlope.empty()) {
+                    const glm::dvec2 x(childSlope[l]);
+                    slope[l] += weight * glm::dvec2(double(s.xx) * x.x + double(s.xy) * x.y,
+                                                    double(s.yx) * x.x + double(s.yy) * x.y);
+                }
             }
+            squares += weight * (double(training.variance[child]) + double(training.slopePower[child]) +
+                                 double(training.power[child]));
         }
         for (u32 l = 0; l < n; ++l) {
             training.radiosity[size_t(i) * n + l] = float(mean[l]);
             power += mean[l] * mean[l] / double(n);
+            if (tree.isLeaf(i) || slopes.empty()) continue;
+            training.slope[size_t(i - count) * n + l] = glm::vec2(slope[l]);
+            slopePower += glm::dot(slope[l], slope[l]) / double(n);
         }
         training.power[i] = float(power);
-        training.variance[i] = tree.isLeaf(i) ? 0.0f : float(std::max(0.0, squares - power));
+        training.slopePower[i] = float(slopePower);
+        if (!tree.isLeaf(i)) training.variance[i] = float(std::max(0.0, squares - power - slopePower));
     }
     return training;
 }

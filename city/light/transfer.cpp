@@ -68,6 +68,13 @@ PlanarShape Transfer::shapeOf(u32 node) const
     return {tree_.outlineOf(node), n.normal, n.centroid, n.area / n.coverage, double(extent_[node].radius)};
 }
 
+bool Transfer::faceEachOther(u32 a, u32 b) const
+{
+    const Node &na = tree_.nodes[a], &nb = tree_.nodes[b];
+    const glm::dvec3 d = nb.centroid - na.centroid;
+    return glm::dot(na.normal, d) > -radius(b) && glm::dot(nb.normal, d) < radius(a);
+}
+
 double Transfer::between(u32 a, u32 b) const
 {
     const Node &na = tree_.nodes[a], &nb = tree_.nodes[b];

@@ -17,6 +17,8 @@ public:
     /// A_a F_ab without occlusion, m2, never negative. Far pairs: four points on each that carry the area and its
     /// second moments (for a rectangle the 2 x 2 Gauss points); else the outlines' exchange times both coverages.
     double between(u32 a, u32 b) const;
+    /// False if one of the nodes lies wholly behind the other's plane, as far as bounding circles tell.
+    bool faceEachOther(u32 a, u32 b) const;
     /// Distance from the centroid to the farthest corner of the outline, m.
     double radius(u32 node) const { return double(extent_[node].radius); }
 

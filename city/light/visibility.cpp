@@ -60,6 +60,34 @@ RTCRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, double end
     return ray;
 }
 
+/// Shadow rays eight at a time: faster, since rays side by side go through the structure together. ray(k): start and
+/// direction of ray k.
+template <class Ray> void traceShadows(RTCScene scene, float end, std::span<bool> blocked, Ray&& ray)
+{
+    constexpr size_t kWidth = 8;
+    for (size_t first = 0; first < blocked.size(); first += kWidth) {
+        const size_t count = std::min(kWidth, blocked.size() - first);
+        alignas(32) RTCRay8 rays{};
+        alignas(32) int valid[kWidth];
+        for (size_t k = 0; k < kWidth; ++k) {
+            valid[k] = k < count ? -1 : 0;
+            const auto [origin, direction] = ray(first + std::min(k, count - 1));
+            rays.org_x[k] = float(origin.x);
+            rays.org_y[k] = float(origin.y);
+            rays.org_z[k] = float(origin.z);
+            rays.dir_x[k] = float(direction.x);
+            rays.dir_y[k] = float(direction.y);
+            rays.dir_z[k] = float(direction.z);
+            rays.tfar[k] = end;
+            rays.mask[k] = ~0u;
+        }
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcOccluded8(valid, scene, &context, &rays);
+        for (size_t k = 0; k < count; ++k) blocked[first + k] = rays.tfar[k] < 0.0f;
+    }
+}
+
 } // namespace
 
 Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
@@ -169,6 +197,25 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& normal, con
     rtcInitIntersectContext(&context);
     rtcOccluded1(scene_->scene, &context, &ray);
     return ray.tfar < 0.0f;
+}
+
+void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& normal, const glm::dvec3& direction,
+                            std::span<bool> blocked) const
+{
+    HELIO_CHECK(blocked.size() == from.size(), blocked.size(), " places for ", from.size(), " rays");
+    const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
+    traceShadows(scene_->scene, std::numeric_limits<float>::infinity(), blocked,
+                 [&](size_t k) { return std::pair(from[k] + lift, direction); });
+}
+
+void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& fromNormal,
+                            std::span<const glm::dvec3> to, const glm::dvec3& toNormal, std::span<bool> blocked) const
+{
+    HELIO_CHECK(blocked.size() == from.size() && to.size() == from.size(), from.size(), " and ", to.size(), " ends, ",
+                blocked.size(), " places");
+    const glm::dvec3 lift = scene_->lift * fromNormal - scene_->origin, turn = scene_->lift * (toNormal - fromNormal);
+    traceShadows(scene_->scene, 1.0f, blocked,
+                 [&](size_t k) { return std::pair(from[k] + lift, to[k] - from[k] + turn); });
 }
 
 RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const

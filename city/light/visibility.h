@@ -2,6 +2,7 @@
 #pragma once
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "city/model/node_tree.h"
@@ -35,6 +36,14 @@ public:
                    const glm::dvec3& toNormal) const;
     /// True if something lies in a unit direction from a surface point.
     bool isBlocked(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const;
+    /// The same for many points of one surface: faster, since rays side by side go through the structure together.
+    /// `blocked` has one entry a point.
+    void areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& normal, const glm::dvec3& direction,
+                    std::span<bool> blocked) const;
+    /// True where something lies between two surface points: from[k] on a surface of normal `fromNormal`, to[k] on one of
+    /// `toNormal`.
+    void areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& fromNormal, std::span<const glm::dvec3> to,
+                    const glm::dvec3& toNormal, std::span<bool> blocked) const;
     /// The first patch in a unit direction from a surface point.
     RayHit trace(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const;
 

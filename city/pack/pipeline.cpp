@@ -205,7 +205,7 @@ private:
     Status lightTree()
     {
         clock_.begin("light");
-        LightBake light = bakeLight(build_.tree, options_.light);
+        LightBake light = bakeLight(build_, summaries_, options_.light);
         out_.stats.light = light.stats;
         clock_.begin("content");
         PackIndex index = std::move(out_.content.index);
@@ -227,7 +227,11 @@ private:
         index.source = sourceName();
         index.method = methodName(options_.light.method);
         index.seed = options_.light.seed;
-        nlohmann::ordered_json settings = {{"epsilon", options_.light.formFactorEpsilon},
+        nlohmann::ordered_json settings = {{"error", options_.light.error},
+                                           {"split_growth", options_.light.splitGrowth},
+                                           {"senders", options_.light.constantSenders ? "constant" : "linear"},
+                                           {"receivers", options_.light.leafReceivers ? "patches" : "tree"},
+                                           {"epsilon", options_.light.formFactorEpsilon},
                                            {"rays_per_patch", options_.light.raysPerPatch},
                                            {"sky_patches", options_.light.skyPatches},
                                            {"rays_per_link", options_.light.raysPerLink},

@@ -53,6 +53,9 @@ nlohmann::ordered_json secondsJson(const std::vector<StepSeconds>& steps)
 
 void lightLines(std::string& text, const LightStats& light)
 {
+    if (light.splitPatchCount > light.wholePatchCount)
+        line(text, "  %u patches were split to %u, unresolved light inside them %.2f %%", light.wholePatchCount,
+             light.splitPatchCount, 100.0 * light.unresolved);
     line(text, "  links %llu, %.1f per patch", static_cast<unsigned long long>(light.linkCount), light.linksPerPatch);
     rangeLine(text, "row sum + sky (1)", light.closure);
     rangeLine(text, "row sum of links", light.rowSum);
@@ -84,6 +87,9 @@ void derivationLines(std::string& text, const BakeStats& stats)
 
 void addLight(nlohmann::ordered_json& json, const LightStats& light)
 {
+    json["whole_patches"] = light.wholePatchCount;
+    json["split_patches"] = light.splitPatchCount;
+    json["unresolved"] = light.unresolved;
     json["links"] = light.linkCount;
     json["links_per_patch"] = light.linksPerPatch;
     json["planar_root_pairs"] = light.rootPairCount;

@@ -31,6 +31,7 @@ struct CommandLine
     std::vector<std::string> attributes; ///< NAME=VALUE
     std::vector<double> bbox;            ///< west, south, east, north
     std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto";
+    std::string senders = "linear", receivers = "tree";
     bool zstd = false;
     FactorOptions factors;
     ExportOptions exporting;
@@ -102,13 +103,31 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->check(CLI::IsMember({"heliopolis", "paper", "paper-literal"}))
         ->type_name("NAME")
         ->capture_default_str();
+    app.add_option("--error", bake.light.error,
+                   "error of the indirect light to aim at, rms over its mean: chooses how far patches are split, the "
+                   "links and the rays; halving it costs two to three times the links")
+        ->check(numberIn(0.001, 0.5))
+        ->capture_default_str();
+    app.add_option("--split", bake.light.splitGrowth,
+                   "patches may become at most this many times as many; 1 = none is split")
+        ->check(numberIn(1.0, 16.0))
+        ->capture_default_str();
+    app.add_option("--senders", line.senders, "what a link knows of its sender: linear = mean and slope, or constant")
+        ->check(CLI::IsMember({"linear", "constant"}))
+        ->type_name("NAME")
+        ->capture_default_str();
+    app.add_option("--receivers", line.receivers,
+                   "where links end: tree = at every level, handed down; patches = rows of the patches alone")
+        ->check(CLI::IsMember({"tree", "patches"}))
+        ->type_name("NAME")
+        ->capture_default_str();
     app.add_option("--epsilon", bake.light.formFactorEpsilon,
                    "error that one link may leave, as a fraction of the mean radiosity (paper methods: largest form "
                    "factor of a link); "
-                   "0 = the method's default")
+                   "0 = by --error, or the paper's default")
         ->check(numberIn(0.0, 1.0))
         ->capture_default_str();
-    app.add_option("--rays", bake.light.raysPerPatch, "sky rays per patch; 0 = chosen by the number of patches")
+    app.add_option("--rays", bake.light.raysPerPatch, "sky rays per patch; 0 = chosen by --error")
         ->check(CLI::Range(0u, 65536u))
         ->capture_default_str();
     bake.light.skyPatches = 0;
@@ -117,7 +136,7 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
                    "beyond 200,000 patches")
         ->check(CLI::Range(0u, SkyDome::kMaxCells))
         ->capture_default_str();
-    app.add_option("--link-rays", bake.light.raysPerLink, "visibility rays per pair of parts of a link; 0 = 4")
+    app.add_option("--link-rays", bake.light.raysPerLink, "visibility rays per pair of parts of a link that is seen in part; 0 = 2")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
     app.add_option("--cutoff", bake.light.cutoff, "paper methods: no link beyond this distance, metres; 0 = none")
@@ -158,6 +177,8 @@ Status completeOptions(CommandLine& line)
     }
     for (const LinkMethod method : {LinkMethod::Heliopolis, LinkMethod::Paper, LinkMethod::PaperLiteral})
         if (line.method == methodName(method)) line.bake.light.method = method;
+    line.bake.light.constantSenders = line.senders == "constant";
+    line.bake.light.leafReceivers = line.receivers == "patches";
     line.bake.import.keepFirstEdge = line.front == "first";
     line.bake.nodes.patch = line.patch == "bay" ? PatchMode::Bay : PatchMode::Piece;
     return Nothing{};

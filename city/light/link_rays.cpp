@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/light/link_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "city/base/check.h"
+#include "city/base/hash.h"
+#include "city/light/sequence.h"
+
+namespace helio {
+namespace {
+
+constexpr double kNearFactor = 0.1; // form factor from which on rays are aimed by the cosine
+
+/// Even-odd test in the coordinate plane that the polygon's plane is nearest to.
+bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
+{
+    const glm::dvec3 n = glm::abs(normal);
+    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z > n.x && n.z > n.y ? 1 : 2;
+    bool inside = false;
+    for (const Ring3& ring : rings) {
+        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+            const glm::dvec3 &a = ring[i], &b = ring[j];
+            if ((a[v] > point[v]) != (b[v] > point[v]) &&
+                point[u] < a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]))
+                inside = !inside;
+        }
+    }
+    return inside;
+}
+
+} // namespace
+
+LinkRays::LinkRays(const NodeTree& tree, const Visibility& visibility, u64 seed)
+    : tree_(tree), visibility_(visibility), seed_(seed), plates_(tree.nodeCount())
+{
+    constexpr double kFilled = 1e-3; // share of the outline that may be missing
+    for (u32 i = 0; i < tree.nodeCount(); ++i) {
+        const std::span<const Ring3> rings = tree.outlineOf(i);
+        if (rings.size() != 1 || rings[0].size() != 4) continue;
+        const Ring3& r = rings[0];
+        const glm::dvec3 side = r[1] - r[0], up = r[3] - r[0];
+        const double size = glm::length(side) + glm::length(up), area = glm::length(glm::cross(side, up));
+        if (glm::distance(r[2], r[0] + side + up) > 1e-6 * size) continue;
+        if (std::abs(tree.nodes[i].area / area - 1.0) > kFilled) continue;
+        plates_[i] = {r[0], side, up};
+    }
+}
+
+glm::dvec3 LinkRays::pointIn(u32 node, double u, double v) const
+{
+    const Plate& plate = plates_[node];
+    if (plate.side != glm::dvec3(0.0)) return plate.corner + u * plate.side + v * plate.up;
+    while (!tree_.isLeaf(node)) {
+        double rest = u * tree_.nodes[node].area;
+        const std::span<const u32> children = tree_.childrenOf(node);
+        u32 c = 0;
+        while (c + 1 < children.size() && rest >= tree_.nodes[children[c]].area)
+            rest -= tree_.nodes[children[c++]].area;
+        node = children[c];
+        u = std::min(rest / tree_.nodes[node].area, 0x1.fffffffffffffp-1);
+    }
+    return visibility_.pointOnPatch(node, u, v);
+}
+
+void LinkRays::areOpen(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<bool> open) const
+{
+    HELIO_CHECK(from.size() == to.size() && from.size() == open.size() && from.size() <= kMostRays, from.size(), ", ",
+                to.size(), ", ", open.size(), " rays");
+    if (from.empty()) return;
+    const glm::dvec3 &na = tree_.nodes[from[0]].normal, &nb = tree_.nodes[to[0]].normal;
+    const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed_, from[0]), to[0]));
+    std::array<glm::dvec3, kMostRays> a, b;
+    std::array<bool, kMostRays> blocked;
+    std::array<u32, kMostRays> ray;
+    u32 count = 0;
+    for (u32 k = 0; k < from.size(); ++k) {
+        open[k] = false;
+        const std::array<double, 4> x = shiftedSobol4(first + k, shift);
+        a[count] = pointIn(from[k], x[0], x[1]);
+        b[count] = pointIn(to[k], x[2], x[3]);
+        const glm::dvec3 d = b[count] - a[count];
+        if (glm::dot(na, d) <= 0.0 || glm::dot(nb, d) >= 0.0) continue;
+        ray[count++] = k;
+    }
+    visibility_.areBlocked(std::span(a).first(count), na, std::span(b).first(count), nb,
+                           std::span(blocked).first(count));
+    for (u32 k = 0; k < count; ++k) open[ray[k]] = !blocked[k];
+}
+
+void LinkRays::shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& shift, u32 rays) const
+{
+    const glm::dvec3 &na = tree_.nodes[a].normal, &nb = tree_.nodes[b].normal;
+    std::array<glm::dvec3, kMostRays> p, q;
+    std::array<double, kMostRays> kernel;
+    std::array<bool, kMostRays> blocked;
+    u32 count = 0;
+    for (const u32 end = tally.next + rays; tally.next < end; ++tally.next) {
+        const std::array<double, 4> x = shiftedSobol4(tally.next, shift);
+        p[count] = pointIn(a, x[0], x[1]);
+        q[count] = pointIn(b, x[2], x[3]);
+        const glm::dvec3 d = q[count] - p[count];
+        const double ca = glm::dot(na, d), cb = -glm::dot(nb, d), d2 = glm::dot(d, d);
+        if (ca <= 0.0 || cb <= 0.0) continue;
+        kernel[count++] = ca * cb / (d2 * d2);
+    }
+    visibility_.areBlocked(std::span(p).first(count), na, std::span(q).first(count), nb,
+                           std::span(blocked).first(count));
+    for (u32 k = 0; k < count; ++k) {
+        ++tally.rays;
+        tally.weight += kernel[k];
+        if (!blocked[k]) tally.open += kernel[k];
+    }
+}
+
+void LinkRays::shootNear(Tally& tally, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const
+{
+    // Points that are uniform on both would seldom be near each other, yet near points exchange most: directions by the
+    // cosine from the smaller one find them. All that reach the larger one's outline count alike.
+    const glm::dvec3 &normal = tree_.nodes[small].normal, &other = tree_.nodes[large].normal,
+                     &onPlane = tree_.nodes[large].centroid;
+    const PlaneFrame frame = planeFrame(normal);
+    const u32 end = tally.rays + rays;
+    for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && tally.rays < end; --tries, ++tally.next) {
+        const std::array<double, 4> x = shiftedSobol4(tally.next, shift);
+        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
+        const glm::dvec3 direction =
+            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
+        const double facing = -glm::dot(other, direction);
+        if (facing <= 0.0) continue;
+        const glm::dvec3 p = pointIn(small, x[2], x[3]);
+        const double height = glm::dot(other, p - onPlane);
+        if (height <= 0.0) continue;
+        const glm::dvec3 q = p + height / facing * direction;
+        if (!isInside(q, tree_.outlineOf(large), other)) continue;
+        ++tally.rays;
+        tally.weight += 1.0;
+        if (!visibility_.isBlocked(p, normal, q, other)) tally.open += 1.0;
+    }
+}
+
+double LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double strength) const
+{
+    const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed_, a), b));
+    const bool swap = tree_.nodes[b].area < tree_.nodes[a].area;
+    const u32 small = swap ? b : a, large = swap ? a : b;
+    const bool near = transfer > kNearFactor * tree_.nodes[small].area;
+    Tally tally;
+    for (u32 asked = 0;;) {
+        const u32 batch = std::min(std::max(asked, rays), kMostRays - asked); // doubles the number
+        if (near)
+            shootNear(tally, small, large, shift, batch);
+        else
+            shootFar(tally, a, b, shift, batch);
+        asked += batch;
+        const double open = tally.weight > 0.0 ? tally.open / tally.weight : 1.0, n = double(tally.rays) + 2.0;
+        if (asked >= kMostRays || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= 1.0) return open;
+    }
+}
+
+} // namespace helio

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <array>
+
+#include "city/light/visibility.h"
+
+namespace helio {
+
+/// How much of one node another one sees, by rays between random points of both. Safe to use from several threads.
+class LinkRays
+{
+public:
+    LinkRays(const NodeTree& tree, const Visibility& visibility, u64 seed);
+
+    static constexpr u32 kMostRays = 64; ///< of one call of areOpen
+
+    /// Rays between pairs of nodes of two planes: ray k joins a random point of from[k] and one of to[k]; true where
+    /// nothing lies between. Rays whose ends do not face each other are false. `first` numbers the rays of this pair.
+    void areOpen(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<bool> open) const;
+
+    /// Visible share of the exchange of two whole nodes, `transfer` m2 without occlusion. Far ones: points of both,
+    /// weighted with cos cos / r^2; near ones (form factor above 0.1): directions by the cosine from the smaller node.
+    /// Begins with `rays` rays and doubles them, up to kMostRays, while strength x (variance of the mean) is above 1.
+    double openShare(u32 a, u32 b, double transfer, u32 rays, double strength) const;
+
+private:
+    struct Tally
+    {
+        double open = 0.0, weight = 0.0;
+        u32 rays = 0, next = 0;
+    };
+
+    /// A node that its outline's parallelogram fills: points need no way down to the patches.
+    struct Plate
+    {
+        glm::dvec3 corner{0.0}, side{0.0}, up{0.0}; ///< m; no sides: not such a node
+    };
+
+    glm::dvec3 pointIn(u32 node, double u, double v) const;
+    void shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& shift, u32 rays) const;
+    void shootNear(Tally& tally, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const;
+
+    const NodeTree& tree_;
+    const Visibility& visibility_;
+    u64 seed_;
+    std::vector<Plate> plates_; ///< per node
+};
+
+} // namespace helio

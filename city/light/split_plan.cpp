@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "city/light/split_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <queue>
+
+#include "city/base/check.h"
+#include "city/base/hash.h"
+#include "city/base/parallel.h"
+#include "city/light/sequence.h"
+
+namespace helio {
+namespace {
+
+constexpr u32 kCells = 16, kPointsPerCell = 4;
+constexpr u32 kNearRays = 64;
+constexpr double kNearest = 0.1; // m: nearer surfaces count as this far
+
+/// The grid of cells over the bounding rectangle of a patch.
+struct Grid
+{
+    glm::dvec3 origin{0.0}, u{0.0}, v{0.0}; ///< corner; unit vectors along the sides
+    double width = 0.0, height = 0.0;       ///< m
+    u32 nu = 4, nv = 4;
+
+    glm::dvec3 at(double x, double y) const { return origin + x * width * u + y * height * v; }
+};
+
+/// The rectangle along the longest edge of the outline.
+Grid gridOf(const NodeTree& tree, u32 patch)
+{
+    const std::span<const Ring3> rings = tree.outlineOf(patch);
+    const glm::dvec3 normal = tree.nodes[patch].normal;
+    glm::dvec3 along(0.0);
+    double longest = 0.0;
+    for (const Ring3& ring : rings) {
+        for (size_t k = 0; k < ring.size(); ++k) {
+            const glm::dvec3 edge = ring[(k + 1) % ring.size()] - ring[k];
+            if (glm::length(edge) <= longest * (1.0 + 1e-9)) continue; // equal ones: the first, whatever its rounding
+            longest = glm::length(edge);
+            along = edge;
+        }
+    }
+    Grid grid;
+    grid.u = glm::normalize(along - glm::dot(along, normal) * normal);
+    grid.v = glm::cross(normal, grid.u);
+    glm::dvec2 low(1e300), high(-1e300);
+    const glm::dvec3 base = rings[0][0];
+    for (const Ring3& ring : rings)
+        for (const glm::dvec3& corner : ring) {
+            const glm::dvec2 p(glm::dot(corner - base, grid.u), glm::dot(corner - base, grid.v));
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    grid.origin = base + low.x * grid.u + low.y * grid.v;
+    grid.width = high.x - low.x;
+    grid.height = high.y - low.y;
+    // Cells as square as sixteen of them can be.
+    while (grid.nu < 16 && grid.width / grid.nu > 2.0 * grid.height / grid.nv) {
+        grid.nu *= 2;
+        grid.nv /= 2;
+    }
+    while (grid.nv < 16 && grid.height / grid.nv > 2.0 * grid.width / grid.nu) {
+        grid.nv *= 2;
+        grid.nu /= 2;
+    }
+    return grid;
+}
+
+bool isInside(const Grid& grid, std::span<const Ring3> rings, double x, double y)
+{
+    const glm::dvec2 p(x * grid.width, y * grid.height);
+    bool inside = false;
+    for (const Ring3& ring : rings) {
+        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+            const glm::dvec2 a(glm::dot(ring[i] - grid.origin, grid.u), glm::dot(ring[i] - grid.origin, grid.v)),
+                b(glm::dot(ring[j] - grid.origin, grid.u), glm::dot(ring[j] - grid.origin, grid.v));
+            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+        }
+    }
+    return inside;
+}
+
+/// Direct light on the cells of a patch.
+struct Samples
+{
+    std::array<u8, kCells> points{}; ///< of each cell that lie on the patch, 0..4
+    std::vector<u8> lit;             ///< [cell * suns + sun]: of these, those that the sun reaches
+    double nearness = 0.0;           ///< 1/m: mean over cosine rays of 1 / distance
+};
+
+Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns, u32 patch,
+                 const Grid& grid)
+{
+    Samples s;
+    s.lit.assign(kCells * suns.size(), 0);
+    const glm::dvec3 normal = tree.nodes[patch].normal;
+    const std::span<const Ring3> rings = tree.outlineOf(patch);
+    const bool rectangle = rings.size() == 1 && rings[0].size() == 4 &&
+                           tree.nodes[patch].area > (1.0 - 1e-6) * grid.width * grid.height;
+    const std::array<u32, 4> shift = digitalShift(mixSeed(0x5911, patch));
+    std::vector<glm::dvec3> points;
+    std::vector<u32> cellOf;
+    for (u32 cell = 0; cell < kCells; ++cell) {
+        for (u32 k = 0; k < kPointsPerCell; ++k) {
+            // 2 x 2 strata in each cell, jittered.
+            const std::array<double, 4> r = shiftedSobol4(cell * kPointsPerCell + k, shift);
+            const double x = (cell % grid.nu + 0.5 * ((k & 1) + r[2])) / grid.nu,
+                         y = (cell / grid.nu + 0.5 * ((k >> 1) + r[3])) / grid.nv;
+            if (!rectangle && !isInside(grid, rings, x, y)) continue;
+            points.push_back(grid.at(x, y));
+            cellOf.push_back(cell);
+            ++s.points[cell];
+        }
+    }
+    std::array<bool, kCells * kPointsPerCell> blocked{};
+    for (size_t sun = 0; sun < suns.size(); ++sun) {
+        if (glm::dot(normal, suns[sun]) <= 0.0) continue;
+        visibility.areBlocked(points, normal, suns[sun], std::span(blocked).first(points.size()));
+        for (size_t p = 0; p < points.size(); ++p)
+            if (!blocked[p]) ++s.lit[cellOf[p] * suns.size() + sun];
+    }
+    const PlaneFrame frame = planeFrame(normal);
+    for (u32 k = 0; k < kNearRays && !points.empty(); ++k) {
+        const std::array<double, 4> x = shiftedSobol4(k, shift);
+        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
+        const glm::dvec3 direction =
+            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
+        const glm::dvec3& from = points[k % points.size()];
+        const RayHit hit = visibility.trace(from, normal, direction);
+        if (hit.patch != kNoIndex) s.nearness += 1.0 / std::max(kNearest, glm::distance(hit.point, from)) / kNearRays;
+    }
+    return s;
+}
+
+/// Cells x0..x1 - 1, y0..y1 - 1 of a grid.
+struct Block
+{
+    u32 x0, y0, x1, y1;
+
+    bool canCut(u32 axis) const { return axis == 0 ? x1 - x0 > 1 : y1 - y0 > 1; }
+    std::array<Block, 2> cut(u32 axis) const
+    {
+        if (axis == 0) return {Block{x0, y0, (x0 + x1) / 2, y1}, Block{(x0 + x1) / 2, y0, x1, y1}};
+        return {Block{x0, y0, x1, (y0 + y1) / 2}, Block{x0, (y0 + y1) / 2, x1, y1}};
+    }
+};
+
+class Planner
+{
+public:
+    Planner(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns,
+            std::span<const u8> mayCut, const SplitOptions& options)
+        : tree_(tree), visibility_(visibility), suns_(suns), mayCut_(mayCut), options_(options)
+    {
+        HELIO_CHECK(mayCut.size() == tree.patchCount(), mayCut.size(), " marks for ", tree.patchCount(), " patches");
+        HELIO_CHECK(options.growth >= 1.0, "growth = ", options.growth);
+    }
+
+    SplitPlan run()
+    {
+        const u32 count = tree_.patchCount();
+        grids_.resize(count);
+        samples_.resize(count);
+        parallelFor(count, 128, options_.jobs, [&](u32 begin, u32 end) {
+            for (u32 patch = begin; patch < end; ++patch) {
+                if (tree_.patches[patch].covered) continue;
+                grids_[patch] = gridOf(tree_, patch);
+                samples_[patch] = sampleOf(tree_, visibility_, suns_, patch, grids_[patch]);
+            }
+        });
+        weigh();
+        std::vector<double> error(count, 0.0);
+        std::vector<Choice> first(count);
+        parallelFor(count, 256, options_.jobs, [&](u32 begin, u32 end) {
+            for (u32 patch = begin; patch < end; ++patch) {
+                if (tree_.patches[patch].covered) continue;
+                const Block whole{0, 0, grids_[patch].nu, grids_[patch].nv};
+                error[patch] = errorOf(patch, whole);
+                if (mayCut_[patch] != 0) first[patch] = choose(patch, whole);
+            }
+        });
+        return grow(error, first);
+    }
+
+private:
+    struct Choice
+    {
+        double gain = 0.0; ///< per added patch
+        u32 axis = 0;
+    };
+
+    struct Candidate
+    {
+        double gain;
+        u32 patch, cell;
+        Block block;
+        u32 axis;
+        bool operator<(const Candidate& other) const
+        {
+            return gain != other.gain ? gain < other.gain : cell > other.cell; // ties: the first one
+        }
+    };
+
+    /// What a squared step of the lit share counts: (rho cos(theta) / mean light)^2 / suns.
+    void weigh()
+    {
+        const size_t n = suns_.size();
+        std::vector<double> mean(n, 0.0);
+        for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
+            const Patch& p = tree_.patches[patch];
+            area_ += p.area;
+            if (samples_[patch].lit.empty()) continue;
+            const double total = pointsIn(patch, {0, 0, grids_[patch].nu, grids_[patch].nv});
+            for (size_t s = 0; s < n && total > 0.0; ++s) {
+                double lit = 0.0;
+                for (u32 cell = 0; cell < kCells; ++cell) lit += samples_[patch].lit[cell * n + s];
+                mean[s] += p.area * p.rho.w * std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[s])) * lit / total;
+            }
+        }
+        scale_.assign(n, 0.0);
+        for (size_t s = 0; s < n; ++s)
+            if (mean[s] > 0.0) scale_[s] = area_ / mean[s];
+    }
+
+    double pointsIn(u32 patch, const Block& b) const
+    {
+        double sum = 0.0;
+        for (u32 y = b.y0; y < b.y1; ++y)
+            for (u32 x = b.x0; x < b.x1; ++x) sum += samples_[patch].points[y * grids_[patch].nu + x];
+        return sum;
+    }
+
+    /// Area of the block x variance of the light inside it, mean over the suns, x (size x nearness)^2, m2.
+    double errorOf(u32 patch, const Block& b) const
+    {
+        const Samples& s = samples_[patch];
+        const Grid& grid = grids_[patch];
+        const size_t n = suns_.size();
+        const double points = pointsIn(patch, b);
+        if (points == 0.0) return 0.0;
+        double variance = 0.0;
+        for (size_t sun = 0; sun < n; ++sun) {
+            const double cosine = glm::dot(tree_.nodes[patch].normal, suns_[sun]);
+            if (cosine <= 0.0) continue;
+            double sum = 0.0, squares = 0.0;
+            for (u32 y = b.y0; y < b.y1; ++y)
+                for (u32 x = b.x0; x < b.x1; ++x) {
+                    const u32 cell = y * grid.nu + x;
+                    if (s.points[cell] == 0) continue;
+                    const double lit = s.lit[cell * n + sun];
+                    sum += lit;
+                    squares += lit * lit / s.points[cell];
+                }
+            const double unit = tree_.patches[patch].rho.w * cosine * scale_[sun], mean = sum / points;
+            variance += unit * unit * std::max(0.0, squares / points - mean * mean) / double(n);
+        }
+        const double width = grid.width * (b.x1 - b.x0) / grid.nu, height = grid.height * (b.y1 - b.y0) / grid.nv;
+        const double size = std::max(width, height) * s.nearness;
+        const double all = pointsIn(patch, {0, 0, grid.nu, grid.nv});
+        return tree_.patches[patch].area * points / all * variance * std::min(1.0, size * size);
+    }
+
+    /// The first of the cuts that gain most per added patch; looks two cuts ahead, since one alone may gain nothing.
+    Choice choose(u32 patch, const Block& block) const
+    {
+        Choice best;
+        const double whole = errorOf(patch, block);
+        if (whole <= 0.0) return best;
+        for (u32 axis = 0; axis < 2; ++axis) {
+            if (!block.canCut(axis)) continue;
+            const std::array<Block, 2> parts = block.cut(axis);
+            const double after = errorOf(patch, parts[0]) + errorOf(patch, parts[1]);
+            if (whole - after > best.gain) best = {whole - after, axis};
+            for (u32 second = 0; second < 2; ++second) {
+                if (!parts[0].canCut(second) || !parts[1].canCut(second)) continue;
+                double quarters = 0.0;
+                for (const Block& part : parts)
+                    for (const Block& quarter : part.cut(second)) quarters += errorOf(patch, quarter);
+                if ((whole - quarters) / 3.0 > best.gain) best = {(whole - quarters) / 3.0, axis};
+            }
+        }
+        return best;
+    }
+
+    SplitPlan grow(const std::vector<double>& error, const std::vector<Choice>& first)
+    {
+        SplitPlan plan;
+        const u32 count = tree_.patchCount();
+        plan.root.assign(count, kNoIndex);
+        plan.partCount = count;
+        double total = 0.0;
+        std::priority_queue<Candidate> queue;
+        for (u32 patch = 0; patch < count; ++patch) {
+            total += error[patch];
+            if (first[patch].gain > 0.0)
+                queue.push({first[patch].gain, patch, patch, {0, 0, grids_[patch].nu, grids_[patch].nv},
+                            first[patch].axis});
+        }
+        const double limit = options_.unresolved * options_.unresolved * area_;
+        const u32 most = u32(std::min(double(kNoIndex / 2), options_.growth * double(count)));
+        while (!queue.empty() && plan.partCount < most && total > limit) {
+            const Candidate c = queue.top();
+            queue.pop();
+            // Cells of patches not cut before have the patch's number here, and get one of their own now.
+            u32 cell = c.cell;
+            if (plan.root[c.patch] == kNoIndex) {
+                cell = plan.root[c.patch] = u32(plan.cells.size());
+                plan.cells.emplace_back();
+            } else {
+                cell -= count;
+            }
+            const Grid& grid = grids_[c.patch];
+            const std::array<Block, 2> parts = c.block.cut(c.axis);
+            const u32 low = u32(plan.cells.size());
+            plan.cells.resize(low + 2);
+            SplitCell& at = plan.cells[cell];
+            at.low = low;
+            at.high = low + 1;
+            at.normal = c.axis == 0 ? grid.u : grid.v;
+            const glm::dvec3 place = c.axis == 0 ? grid.at(double(parts[1].x0) / grid.nu, 0.0)
+                                                 : grid.at(0.0, double(parts[1].y0) / grid.nv);
+            at.offset = glm::dot(at.normal, place);
+            total += errorOf(c.patch, parts[0]) + errorOf(c.patch, parts[1]) - errorOf(c.patch, c.block);
+            ++plan.partCount;
+            for (u32 k = 0; k < 2; ++k) {
+                const Choice next = choose(c.patch, parts[k]);
+                if (next.gain > 0.0) queue.push({next.gain, c.patch, count + low + k, parts[k], next.axis});
+            }
+        }
+        plan.unresolved = area_ > 0.0 ? std::sqrt(std::max(0.0, total) / area_) : 0.0;
+        return plan;
+    }
+
+    const NodeTree& tree_;
+    const Visibility& visibility_;
+    std::span<const glm::dvec3> suns_;
+    std::span<const u8> mayCut_;
+    SplitOptions options_;
+    std::vector<Grid> grids_;
+    std::vector<Samples> samples_;
+    std::vector<double> scale_; ///< per sun: 1 / area mean of rho E, E in units of the sun's normal irradiance
+    double area_ = 0.0;
+};
+
+} // namespace
+
+SplitPlan planSplits(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns,
+                     std::span<const u8> mayCut, const SplitOptions& options)
+{
+    return Planner(tree, visibility, suns, mayCut, options).run();
+}
+
+} // namespace helio

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <span>
+#include <vector>
+
+#include "city/light/visibility.h"
+
+namespace helio {
+
+/// A rectangle in the plane of a patch, cut in two or whole.
+struct SplitCell
+{
+    u32 low = kNoIndex, high = kNoIndex; ///< parts on both sides of the cut, into SplitPlan::cells; kNoIndex: whole
+    glm::dvec3 normal{0.0};              ///< of the cut, unit, in the patch's plane; towards `high`
+    double offset = 0.0;                 ///< m: the cut lies at dot(normal, p) = offset
+};
+
+/// Which patches are cut, and how.
+struct SplitPlan
+{
+    std::vector<u32> root; ///< per patch: its cell, kNoIndex if it stays whole
+    std::vector<SplitCell> cells;
+    u32 partCount = 0; ///< patches afterwards, if no cut misses its patch
+    /// Estimated share of E_indirect (rms over the mean, roughly) that stays unresolved: root of the mean over area and
+    /// training suns of the variance of rho E_sun inside the parts, each light over its mean, times the square of size
+    /// over distance (at most 1).
+    double unresolved = 0.0;
+};
+
+/// How far to split.
+struct SplitOptions
+{
+    double unresolved = 0.0; ///< until SplitPlan::unresolved is at most this; 0 = as far as `growth` allows
+    double growth = 1.5;     ///< largest number of patches afterwards / before; 1 = none is split
+    u32 jobs = 0;
+};
+
+/// Finds where direct light varies inside patches that others see from near: links.md's criterion, variance of direct
+/// light x (size / distance)^2, with 64 points a patch in 16 cells and `directions` of suns. Patches are halved along
+/// the longer or shorter side of their bounding rectangle, the largest gain per added patch first, down to a sixteenth
+/// of the patch; cuts lie where cells border. `mayCut` has a byte a patch: 0 = it stays whole.
+SplitPlan planSplits(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns,
+                     std::span<const u8> mayCut, const SplitOptions& options);
+
+} // namespace helio

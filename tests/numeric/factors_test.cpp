@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <tuple>
 
 #include "city/light/form_factor.h"
 #include "city/light/pair_factor.h"
@@ -273,6 +274,31 @@ TEST(PairFactor, TheBakesKernelKeepsItsWord)
     EXPECT_GT(crossing, 20u) << "pairs that cut each other's planes are to be among them";
 }
 
+TEST(PairFactor, TheBakesKernelOnRectanglesThroughEachOther)
+{
+    // As the walls of buildings that stand in each other: edges end on edges, at any angle.
+    Random dice(6);
+    const auto point = [&] { return glm::dvec3(dice.uniform() - .5, dice.uniform() - .5, dice.uniform() - .5); };
+    double worst = 0.0;
+    u32 seen = 0;
+    for (int k = 0; k < 600; ++k) {
+        const auto rectangle = [&] {
+            const glm::dvec3 middle = 0.5 * point(), u = point(), n = glm::normalize(glm::cross(u, point()));
+            const glm::dvec3 v = (0.3 + dice.uniform()) * glm::cross(n, u);
+            return Ring3{middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+        };
+        const std::vector<Ring3> a{rectangle()}, b{rectangle()};
+        const PlanarShape shapeA = planarShape(a), shapeB = planarShape(b);
+        const double expected = pairFactor(a[0], b[0], {}, kReferenceAccuracy).ab;
+        if (expected < 1e-4) continue;
+        ++seen;
+        worst = std::max(worst, relative(exchange(shapeA, shapeB) / shapeA.area, expected));
+    }
+    std::printf("exchange(): relative error %.1e at most in %u pairs\n", worst, seen);
+    EXPECT_GT(seen, 300u);
+    EXPECT_LT(worst, 3e-3);
+}
+
 TEST(PairFactor, EstimatesHoldAtEveryAccuracy)
 {
     Random dice(8);
@@ -292,9 +318,33 @@ TEST(PairFactor, EstimatesHoldAtEveryAccuracy)
 
 TEST(PairFactor, EndlessCanyonsByCrossedStrings)
 {
-    // C01, C02: strips 1e6 long stand for endless ones; their ends change F by about 1e-6.
-    for (const auto& [height, expected] : {std::pair{1.0, std::sqrt(2.0) - 1.0}, {0.5, (std::sqrt(5.0) - 1.0) / 2.0}}) {
-        const PairRings strips = opposed(0, 1, 0, 1e6, height, 0, 1, 0, 1e6);
-        EXPECT_LT(relative(pairFactor(strips.a, strips.b, {}).ab, expected), 5e-6);
+    // Strips that are long stand for endless ones: their ends change F by about width over length.
+    for (const auto& [id, height] : {std::pair{"C01", 1.0}, {"C02", 0.5}}) {
+        const double expected = factorOf(HELIO_TEST_DATA, id);
+        for (const double length : {1e6, 1e10}) {
+            const PairRings strips = opposed(0, 1, 0, length, height, 0, 1, 0, length);
+            for (const auto& [accuracy, bound] : {std::pair{kProductionAccuracy, 1e-4}, {kReferenceAccuracy, 1e-9}})
+                EXPECT_LT(relative(pairFactor(strips.a, strips.b, {}, accuracy).ab, expected),
+                          std::max(length < 1e7 ? 5e-6 : 0.0, bound))
+                    << id << " " << length;
+        }
     }
+}
+
+TEST(PairFactor, PointsOfTheTable)
+{
+    const glm::dvec3 o(0.0), up(0, 0, 1);
+    const auto ceiling = [](double x0, double x1, double y0, double y1, double z) {
+        return std::vector<Ring3>{{{x0, y0, z}, {x0, y1, z}, {x1, y1, z}, {x1, y0, z}}};
+    };
+    const std::vector<Ring3> wall{{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}},
+        half{{{1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}}};
+    const std::tuple<const char*, glm::dvec3, std::vector<Ring3>> rows[] = {
+        {"D01", o, ceiling(0, 1, 0, 1, 1)},
+        {"D02", {1, 0, 0}, wall},
+        {"D03", o, ceiling(0, .5, 0, .5, 1e-6)},
+        {"D04", o, half},
+        {"C03", o, ceiling(-10, 10, -10, 10, 15)}};
+    for (const auto& [id, point, rings] : rows)
+        EXPECT_LT(relative(pointFactor(point, up, rings), factorOf(HELIO_TEST_DATA, id)), 1e-12) << id;
 }

@@ -205,8 +205,7 @@ TEST(Enclosures, FurnaceErrorIsTheRowSumErrorTimesRhoOverOneMinusRho)
                 for (u32 j = 0; j < tree.patchCount(); ++j) links.push_back({i, j, (1.0 + d) * areas[j] / whole});
             const LinkTable table = makeLinks(tree, links);
             for (const double sum : patchRowSums(tree, table)) ASSERT_NEAR(sum, 1.0 + d, 1e-13);
-            const Solution s =
-                solveLight(tree, table, none(tree), none(tree), {.residual = 1e-15, .maxSweeps = 2000});
+            const Solution s = solveLight(tree, table, none(tree), none(tree), {.residual = 1e-15, .maxSweeps = 2000});
             for (u32 i = 0; i < tree.patchCount(); ++i)
                 EXPECT_NEAR(s.radiosity[i].x * (1.0 - rho), 1.0 + d * rho / (1.0 - rho * (1.0 + d)), 1e-12);
         }
@@ -240,8 +239,7 @@ TEST(Enclosures, WhiteFurnaceConverges)
     double defect = 0.0;
     for (const double sum : patchRowSums(tree, bake.links)) raise(defect, std::abs(sum - 1.0));
     ASSERT_LT(0.99 * (1.0 + defect), 1.0);
-    const Solution s =
-        solveLight(tree, bake.links, none(tree), none(tree), {.residual = 1e-7, .maxSweeps = 5000});
+    const Solution s = solveLight(tree, bake.links, none(tree), none(tree), {.residual = 1e-7, .maxSweeps = 5000});
     EXPECT_LE(s.sweeps.back().residual, 1e-7);
     EXPECT_LT(s.sweeps.size(), 5000u);
     EXPECT_LT(s.sweeps.back().bound, 0.01 * 100.0);

@@ -63,8 +63,8 @@ std::vector<Face> sphereInside(u32 levels)
 {
     using Triangle = std::array<glm::dvec3, 3>;
     const double g = (1.0 + std::sqrt(5.0)) / 2.0;
-    const glm::dvec3 corners[] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    const glm::dvec3 corners[] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     // Three corners make a face where all are neighbours: 2 apart.
     std::vector<Triangle> triangles;
     for (size_t i = 0; i < 12; ++i)

@@ -339,12 +339,11 @@ TEST(PairFactor, PointsOfTheTable)
     };
     const std::vector<Ring3> wall{{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}},
         half{{{1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}}};
-    const std::tuple<const char*, glm::dvec3, std::vector<Ring3>> rows[] = {
-        {"D01", o, ceiling(0, 1, 0, 1, 1)},
-        {"D02", {1, 0, 0}, wall},
-        {"D03", o, ceiling(0, .5, 0, .5, 1e-6)},
-        {"D04", o, half},
-        {"C03", o, ceiling(-10, 10, -10, 10, 15)}};
+    const std::tuple<const char*, glm::dvec3, std::vector<Ring3>> rows[] = {{"D01", o, ceiling(0, 1, 0, 1, 1)},
+                                                                            {"D02", {1, 0, 0}, wall},
+                                                                            {"D03", o, ceiling(0, .5, 0, .5, 1e-6)},
+                                                                            {"D04", o, half},
+                                                                            {"C03", o, ceiling(-10, 10, -10, 10, 15)}};
     for (const auto& [id, point, rings] : rows)
         EXPECT_LT(relative(pointFactor(point, up, rings), factorOf(HELIO_TEST_DATA, id)), 1e-12) << id;
 }

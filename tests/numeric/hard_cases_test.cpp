@@ -79,7 +79,7 @@ TEST(HardCases, TouchingBuildingsAreOneBuilding)
     std::vector<Face> one = ground();
     append(one, boxOutside({-10, -5, 0}, {10, 5, 10}, 5, 1));
     std::vector<Face> two = one;
-    append(two, grid({0, -5, 0}, 10.0 * kY, 10.0 * kZ, 2, 2, {{}, 6}));  // faces +x, into the eastern one
+    append(two, grid({0, -5, 0}, 10.0 * kY, 10.0 * kZ, 2, 2, {{}, 6})); // faces +x, into the eastern one
     append(two, grid({0, 5, 0}, -10.0 * kY, 10.0 * kZ, 2, 2, {{}, 7})); // faces -x
     const LitScene a = lightFaces(one, light), b = lightFaces(two, light);
     for (const LitScene* scene : {&a, &b}) {
@@ -187,7 +187,8 @@ TEST(HardCases, GapOfAMillimetreIsDarkAndChangesNothingOutside)
         // The walls on the gap last: the second of the western box, the fourth of the eastern one.
         const auto take = [](std::vector<Face>& from, u32 group) {
             std::vector<Face> taken;
-            std::copy_if(from.begin(), from.end(), std::back_inserter(taken), [&](const Face& f) { return f.group == group; });
+            std::copy_if(from.begin(), from.end(), std::back_inserter(taken),
+                         [&](const Face& f) { return f.group == group; });
             std::erase_if(from, [&](const Face& f) { return f.group == group; });
             return taken;
         };
@@ -339,8 +340,7 @@ TEST(HardCases, WhiteSurfacesKeepTheBalance)
     // Reflectance 0.95. Closed: B = E / 0.05. Open above: what comes in is absorbed or leaves through the opening.
     const LitScene furnace = lightFaces(room({8, 6, 5}, 4, glm::dvec4(0.95), glm::dvec4(1.0)), {});
     expectPhysical(furnace, {});
-    for (u32 i = 0; i < furnace.tree.patchCount(); ++i)
-        EXPECT_NEAR(furnace.solution.radiosity[i].x / 20.0, 1.0, 5e-3);
+    for (u32 i = 0; i < furnace.tree.patchCount(); ++i) EXPECT_NEAR(furnace.solution.radiosity[i].x / 20.0, 1.0, 5e-3);
     std::vector<Face> faces = room({8, 6, 5}, 6, glm::dvec4(0.95), glm::dvec4(0.0));
     std::erase_if(faces, [](const Face& face) { return face.group == 1; });
     const Daylight light = sunAt(150, 50);

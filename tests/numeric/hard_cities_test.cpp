@@ -116,9 +116,12 @@ std::array<double, 6> fluxesOf(const City& city)
     for (u32 i = 0; i < city.scene.tree.patchCount(); ++i) {
         const Node& node = city.scene.tree.nodes[i];
         size_t kind = 0;
-        if (node.normal.z > 0.5) kind = city.scene.tree.patches[i].building == kNoIndex ? 1 : 0;
-        else if (std::abs(node.normal.x) > std::abs(node.normal.y)) kind = node.normal.x > 0.0 ? 2 : 3;
-        else kind = node.normal.y > 0.0 ? 4 : 5;
+        if (node.normal.z > 0.5)
+            kind = city.scene.tree.patches[i].building == kNoIndex ? 1 : 0;
+        else if (std::abs(node.normal.x) > std::abs(node.normal.y))
+            kind = node.normal.x > 0.0 ? 2 : 3;
+        else
+            kind = node.normal.y > 0.0 ? 4 : 5;
         out[kind] += node.area * city.scene.irradiance(i);
     }
     return out;

@@ -27,8 +27,8 @@ struct Canyon
 
 std::optional<Canyon> canyonOf(const std::string& id)
 {
-    const std::map<std::string, Canyon> canyons{{"W03", {0.5, 0.2, 0.3}}, {"W04", {1.0, 0.2, 0.3}},
-                                                {"W05", {2.0, 0.2, 0.3}}, {"W07", {1.0, 0.5, 0.5}}};
+    const std::map<std::string, Canyon> canyons{
+        {"W03", {0.5, 0.2, 0.3}}, {"W04", {1.0, 0.2, 0.3}}, {"W05", {2.0, 0.2, 0.3}}, {"W07", {1.0, 0.5, 0.5}}};
     const auto found = canyons.find(id);
     return found == canyons.end() ? std::nullopt : std::optional(found->second);
 }
@@ -259,8 +259,8 @@ Quantities canyonBaked(const Canyon& canyon)
     };
     double albedo = 0.0;
     for (size_t face = 0; face < 3; ++face)
-        albedo += albedoOf(baked, face * side + middle, face * side + middle + count,
-                           kWidth * kLength * kMiddle / kAlong);
+        albedo +=
+            albedoOf(baked, face * side + middle, face * side + middle + count, kWidth * kLength * kMiddle / kAlong);
     return {{"ground mean radiosity", mean(0)},
             {"wall mean radiosity", 0.5 * (mean(1) + mean(2))},
             {"canyon albedo", albedo}};

@@ -10,6 +10,7 @@
 
 #include "city/light/bake_light.h"
 #include "city/light/form_factor.h"
+#include "city/light/path_tracer.h"
 #include "city/light/reference_solver.h"
 #include "city/sky/sky_model.h"
 #include "tests/numeric/exact_light.h"
@@ -239,19 +240,24 @@ double albedoOf(const Baked& baked, size_t begin, size_t end, double opening)
     return out / opening;
 }
 
-Quantities canyonBaked(const Canyon& canyon)
+constexpr double kCanyonWidth = 10.0, kCanyonLength = 5000.0;
+
+/// Ground, western and eastern wall; patches run across first, so any stretch is one block of their numbers.
+std::vector<Face> canyonFaces(const Canyon& canyon, u32 partsAcross, u32 partsAlong)
 {
-    constexpr double kWidth = 10.0, kLength = 5000.0;
-    constexpr u32 kAcross = 18, kAlong = 15, kMiddle = 9;
-    const double height = canyon.heightOverWidth * kWidth;
-    const std::vector<double> across = graded(kAcross), along = evenly(kAlong);
-    const glm::dvec3 y(0, kLength, 0), z(0, 0, height), x(kWidth, 0, 0);
+    const std::vector<double> across = graded(partsAcross), along = evenly(partsAlong);
+    const glm::dvec3 x(kCanyonWidth, 0, 0), y(0, kCanyonLength, 0), z(0, 0, canyon.heightOverWidth * kCanyonWidth);
     std::vector<Face> faces;
-    // Patches run across first, so the middle is one block of their numbers.
     addCut(faces, {0, 0, 0}, x, y, across, along, {{}, 0, glm::dvec4(canyon.rhoGround)});
     addCut(faces, z, -z, y, across, along, {{}, 1, glm::dvec4(canyon.rhoWall)});
     addCut(faces, x, z, y, across, along, {{}, 2, glm::dvec4(canyon.rhoWall)});
-    const Baked baked = bakeScene(faces, 1, {1.0 / kPi});
+    return faces;
+}
+
+Quantities canyonBaked(const Canyon& canyon)
+{
+    constexpr u32 kAcross = 18, kAlong = 15, kMiddle = 9;
+    const Baked baked = bakeScene(canyonFaces(canyon, kAcross, kAlong), 1, {1.0 / kPi});
     const size_t side = size_t(kAcross) * kAlong, middle = size_t(kAlong - kMiddle) / 2 * kAcross,
                  count = size_t(kMiddle) * kAcross;
     const auto mean = [&](size_t face) {
@@ -259,8 +265,8 @@ Quantities canyonBaked(const Canyon& canyon)
     };
     double albedo = 0.0;
     for (size_t face = 0; face < 3; ++face)
-        albedo +=
-            albedoOf(baked, face * side + middle, face * side + middle + count, kWidth * kLength * kMiddle / kAlong);
+        albedo += albedoOf(baked, face * side + middle, face * side + middle + count,
+                           kCanyonWidth * kCanyonLength * kMiddle / kAlong);
     return {{"ground mean radiosity", mean(0)},
             {"wall mean radiosity", 0.5 * (mean(1) + mean(2))},
             {"canyon albedo", albedo}};
@@ -327,6 +333,56 @@ Quantities solveBaked(const std::string& scene, u32 skyPatches)
     return {{"floor mean radiosity", meanOf(baked.areas, baked.radiosity, 0, kPerSscenee)},
             {"wall mean radiosity", meanOf(baked.areas, baked.radiosity, kPerSscenee, 5 * kPerSscenee)},
             {"courtyard albedo (flux out / flux in)", albedoOf(baked, 0, 5 * kPerSscenee, 400.0)}};
+}
+
+std::map<std::string, Traced> solveTraced(const std::string& scene, u32 samples)
+{
+    std::vector<Face> faces;
+    size_t stride = 1, first = 0; // one patch a face, or the middle of three
+    double opening = 0.0;         // m2
+    if (const std::optional<Canyon> canyon = canyonOf(scene)) {
+        faces = canyonFaces(*canyon, 1, 3);
+        stride = 3;
+        first = 1;
+        opening = kCanyonWidth * kCanyonLength / 3.0;
+    } else if (scene == "W01") {
+        faces = cube(evenly(1));
+    } else {
+        faces = courtyard(evenly(1));
+        faces.erase(faces.begin() + 1);
+        opening = 400.0;
+    }
+    const NodeTree tree = makeTree(faces);
+    const Visibility visibility(tree);
+    const PathReference paths = tracePaths(tree, visibility, {.dni = 0.0, .dhi = 1.0, .samples = samples});
+    const auto radiosity = [&](std::initializer_list<size_t> sides) {
+        Traced mean;
+        for (const size_t side : sides) {
+            const PatchLight& light = paths.patches[side * stride + first];
+            const Patch& patch = tree.patches[side * stride + first];
+            mean.value += (patch.emission.x + patch.rho.x * (light.sky + light.indirect.x)) / double(sides.size());
+            mean.error = std::hypot(mean.error, patch.rho.x * light.totalError.x / double(sides.size()));
+        }
+        return mean;
+    };
+    if (scene == "W01")
+        return {{"floor mean radiosity", radiosity({0})},
+                {"ceiling mean radiosity", radiosity({1})},
+                {"wall mean radiosity", radiosity({2, 3, 4, 5})}};
+    Traced albedo{1.0, 0.0};
+    for (size_t i = first; i < faces.size(); i += stride) {
+        const PatchLight& light = paths.patches[i];
+        const double share = tree.patches[i].area * (1.0 - tree.patches[i].rho.x) / opening;
+        albedo.value -= share * (light.sky + light.indirect.x);
+        albedo.error = std::hypot(albedo.error, share * light.totalError.x);
+    }
+    if (scene == "W02")
+        return {{"floor mean radiosity", radiosity({0})},
+                {"wall mean radiosity", radiosity({1, 2, 3, 4})},
+                {"courtyard albedo (flux out / flux in)", albedo}};
+    return {{"ground mean radiosity", radiosity({0})},
+            {"wall mean radiosity", radiosity({1, 2})},
+            {"canyon albedo", albedo}};
 }
 
 } // namespace helio::test

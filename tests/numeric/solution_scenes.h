@@ -33,4 +33,13 @@ Quantities solveExactly(const std::string& scene, u32 n);
 /// cut in 15; what counts are the middle nine.
 Quantities solveBaked(const std::string& scene, u32 skyPatches);
 
+/// A value and its standard error.
+struct Traced
+{
+    double value = 0.0, error = 0.0;
+};
+/// A room or canyon by paths over one patch a face (canyons as in solveBaked), whose means are those of the continuous
+/// solution; albedos as what is not absorbed.
+std::map<std::string, Traced> solveTraced(const std::string& scene, u32 samples);
+
 } // namespace helio::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole solutions against tests/data/closed_forms/solutions.csv: with exact factors, where nothing but the patches'
-// size is left as an error, and as the bake solves them at its default error.
+// size is left as an error, by paths, and as the bake solves them at its default error.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -77,6 +77,22 @@ TEST(Solutions, SkyRowsByQuadrature)
         ++checked;
     }
     EXPECT_EQ(checked, 4u);
+}
+
+TEST(Solutions, PathsGiveTheConvergedMeans)
+{
+    std::map<std::string, std::map<std::string, Traced>> scenes;
+    for (const SolutionRow& row : solutionRows(HELIO_TEST_DATA)) {
+        if (std::isnan(row.onePatch)) continue; // rows of points under a sky
+        const std::string scene = sceneOf(row.id);
+        if (!scenes.contains(scene)) scenes[scene] = solveTraced(scene, 65536);
+        const Traced traced = scenes[scene].at(row.quantity);
+        std::printf("%s %-40s %.6f +- %.6f, %+.2f standard errors\n", row.id.c_str(), row.quantity.c_str(),
+                    traced.value, traced.error, (traced.value - row.converged) / traced.error);
+        EXPECT_GT(traced.error, 0.0);
+        EXPECT_LT(traced.error, 0.02 * row.converged) << row.id << " " << row.quantity;
+        EXPECT_NEAR(traced.value, row.converged, 4.0 * traced.error + 1e-5) << row.id << " " << row.quantity;
+    }
 }
 
 TEST(Solutions, TheDefaultErrorIsWithinHalfAPercent)

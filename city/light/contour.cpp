@@ -104,6 +104,8 @@ double nearestApproach(const Edge& a, const Edge& b, double& distanceSquared)
     return t;
 }
 
+constexpr double kAlike = 0.8; // cosine between edges that may run beside each other
+
 /// Double integral of ln r along two edges.
 double edgePair(const Edge& p, const Edge& q, double cosine)
 {
@@ -119,7 +121,23 @@ double edgePair(const Edge& p, const Edge& q, double cosine)
     double distanceSquared = 0.0;
     const double t = nearestApproach(outer, inner, distanceSquared);
     if (distanceSquared > outer.length * outer.length) return outerIntegral(outer, inner, 0.0, outer.length, false);
-    return outerIntegral(outer, inner, t, 0.0, true) + outerIntegral(outer, inner, t, outer.length, true);
+    if (std::abs(cosine) < kAlike)
+        return outerIntegral(outer, inner, t, 0.0, true) + outerIntegral(outer, inner, t, outer.length, true);
+    // Beside each other: the integrand also bends where the inner edge begins and ends.
+    const auto footOf = [&](double along) {
+        const double foot = glm::dot(inner.from + along * inner.direction - outer.from, outer.direction);
+        return std::clamp(foot, 0.0, outer.length);
+    };
+    std::array<double, 5> cuts{0.0, t, footOf(0.0), footOf(inner.length), outer.length};
+    std::sort(cuts.begin(), cuts.end());
+    double sum = 0.0;
+    for (u32 k = 0; k + 1 < cuts.size(); ++k) {
+        const double middle = 0.5 * (cuts[k] + cuts[k + 1]);
+        if (cuts[k + 1] > cuts[k])
+            sum += outerIntegral(outer, inner, cuts[k], middle, true) +
+                   outerIntegral(outer, inner, cuts[k + 1], middle, true);
+    }
+    return sum;
 }
 
 } // namespace

@@ -16,6 +16,7 @@ std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, c
 {
     HELIO_CHECK(samples > 0, "samples = ", samples);
     std::vector<double> irradiance(tree.patchCount(), 0.0);
+    if (toSun.z <= 0.0) return irradiance;
     parallelFor(tree.patchCount(), 256, jobs, [&](u32 begin, u32 end) {
         for (u32 patch = begin; patch < end; ++patch) {
             const glm::dvec3 normal = tree.nodes[patch].normal;

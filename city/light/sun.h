@@ -5,8 +5,8 @@
 namespace helio {
 
 /// E_sun / DNI of each patch by shadow rays: cos(theta) times the fraction of `samples` points, stratified over the
-/// patch, that see the sun; 0 where the sun is behind the patch. `toSun` is a unit vector. The yardstick of the sun
-/// raster.
+/// patch, that see the sun; 0 where the sun is behind the patch, and everywhere when it is at or below the horizon (z
+/// <= 0). `toSun` is a unit vector. The yardstick of the sun raster.
 std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, const glm::dvec3& toSun, u32 samples,
                            u32 jobs = 0);
 

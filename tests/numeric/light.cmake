@@ -2,6 +2,7 @@
 add_executable(light_test
     cities/tree_audit.cpp
     numeric/covered_test.cpp
+    numeric/factor_rows.cpp
     numeric/factors_occluded_test.cpp
     numeric/factors_test.cpp
     numeric/fixtures.cpp
@@ -12,6 +13,7 @@ add_executable(light_test
     numeric/path_tracer_test.cpp
     numeric/scenes_test.cpp
     numeric/solver_test.cpp
+    numeric/text_table.cpp
     numeric/visibility_test.cpp
     accuracy/csv_table.cpp)
 target_compile_definitions(light_test PRIVATE HELIO_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")

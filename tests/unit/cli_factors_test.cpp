@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "city/base/file.h"
+#include "tests/numeric/factor_rows.h"
 #include "tests/unit/cli_runner.h"
 
 namespace helio {
@@ -97,6 +98,61 @@ TEST_F(FactorsCli, ReferenceIsMoreExactAndJobsChangeNothing)
     ASSERT_EQ(factors(json, "--reference").exitCode, 0);
     EXPECT_NEAR(std::stod(cells(1)[1]), 0.3709053211500514359, 1e-14);
     EXPECT_LT(std::stod(cells(1)[4]), error);
+}
+
+/// Corners as JSON, all digits kept.
+std::string ringText(const Ring3& ring)
+{
+    std::ostringstream out;
+    out.precision(17);
+    const char* separator = "[";
+    for (const glm::dvec3& p : ring) {
+        out << separator << '[' << p.x << ',' << p.y << ',' << p.z << ']';
+        separator = ",";
+    }
+    out << ']';
+    return out.str();
+}
+
+TEST_F(FactorsCli, EveryPairOfTheTable)
+{
+    // At home and at map coordinates; production and reference. Corners of U01, and all that are moved, are rounded to
+    // 1e-9 m.
+    const std::vector<test::FactorRow> rows = test::factorRows(HELIO_TEST_DATA_DIR);
+    ASSERT_GT(rows.size(), 25u);
+    const glm::dvec3 map(5e5, 4.5e6, 0.0);
+    std::ostringstream json;
+    json << '[';
+    for (const bool far : {false, true})
+        for (const test::FactorRow& row : rows) {
+            const glm::dvec3 offset = far ? map : glm::dvec3(0.0);
+            const auto text = [&](const Ring3& ring) { return ringText(test::moved(ring, offset)); };
+            json << (json.tellp() > 1 ? "," : "") << R"({"id":")" << row.id << (far ? " far" : "") << R"(","a":)"
+                 << text(row.pair.a) << R"(,"b":)" << text(row.pair.b) << R"(,"occluders":[)";
+            for (const Ring3& ring : row.occluders) json << (&ring == row.occluders.data() ? "" : ",") << text(ring);
+            json << "]}";
+        }
+    json << ']';
+    for (const bool reference : {false, true}) {
+        const RunResult result = factors(json.str(), reference ? "--reference" : "");
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+        for (size_t k = 0; k < 2 * rows.size(); ++k) {
+            const test::FactorRow& row = rows[k % rows.size()];
+            const bool far = k >= rows.size();
+            const std::vector<std::string> values = cells(k + 1);
+            ASSERT_EQ(values.size(), 6u);
+            EXPECT_EQ(values[0], row.id + (far ? " far" : ""));
+            const double ab = std::stod(values[1]), ba = std::stod(values[2]), visibility = std::stod(values[3]);
+            for (const double share : {ab, ba, visibility}) EXPECT_TRUE(share >= 0.0 && share <= 1.0) << values[0];
+            // Occluded rows: 1e-4 is asked for, both times.
+            double bound = reference ? 1e-9 : 1e-4;
+            if (!row.occluders.empty()) bound = 1e-4;
+            if (row.id == "U01") bound = std::max(bound, 2e-8);
+            if (far) bound = 1e-6 + (row.occluders.empty() ? 0.0 : 1e-4);
+            EXPECT_NEAR(ab * visibility / row.ab, 1.0, bound) << values[0];
+            EXPECT_NEAR(ba * visibility / row.ba, 1.0, bound) << values[0];
+        }
+    }
 }
 
 TEST_F(FactorsCli, BadInputIsRefusedInOneLine)

@@ -31,7 +31,7 @@ struct CommandLine
     std::vector<std::string> attributes; ///< NAME=VALUE
     std::vector<double> bbox;            ///< west, south, east, north
     std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto";
-    bool zstd = false;
+    bool zstd = false, compactLinks = false;
     FactorOptions factors;
     ExportOptions exporting;
     ReferenceOptions reference;
@@ -125,6 +125,8 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->capture_default_str();
     app.add_option("--stats", line.stats, "JSON file for the statistics");
     app.add_flag("--zstd", line.zstd, "pack the sections with zstd: a smaller file that is not mapped but unpacked");
+    app.add_flag("--compact-links", line.compactLinks,
+                 "store links in a quarter of the bytes; adds less than 0.1 % to the error of the indirect light");
 }
 
 void addFactorOptions(CLI::App& command, FactorOptions& factors)
@@ -207,7 +209,7 @@ int runBake(CommandLine& line)
     if (line.output.empty()) return complain("-o PACK is missing: where shall the pack go? See --help", kBadInput);
     if (Status status = checkPackTarget(line.output); !status) return complain(status.error().message, kBadInput);
     ProgressLine progress;
-    const std::optional<BakeResult> result = bakeWithProgress(line, progress);
+    std::optional<BakeResult> result = bakeWithProgress(line, progress);
     if (!result) return kBadInput;
     progress.show("writing", 0.0);
     if (Status good = checkContent(result->content, line.output); !good) {
@@ -217,8 +219,11 @@ int runBake(CommandLine& line)
     const double peak = peakMemoryMiB();
     {
         const InterruptGuard guard;
-        Status written =
-            writePack(result->content, line.output, {line.zstd, [] { return InterruptGuard::caught() != 0; }});
+        const Result<LinkBytes> linkBytes =
+            writePack(result->content, line.output,
+                      {line.zstd, line.compactLinks, [] { return InterruptGuard::caught() != 0; }});
+        Status written = linkBytes ? Status(Nothing{}) : linkBytes.error();
+        if (linkBytes) result->stats.linkBytes = *linkBytes;
         if (written && !line.stats.empty() && InterruptGuard::caught() == 0)
             written = writeTextAtomically(line.stats, statsJson(result->stats, peak));
         progress.clear();

@@ -244,6 +244,24 @@ TEST_F(BakeCli, OptionsChangeTheBytes)
     EXPECT_EQ(Pack::open(temp_ / "a")->index().source, "town.geojson");
 }
 
+TEST_F(BakeCli, TreeShapesAreRecorded)
+{
+    u32 nodes[3] = {}, patches[3] = {}, count = 0;
+    for (const std::string shape : {"grammar", "free", "faces"}) {
+        const RunResult baked = bake(kScene + ".obj --surfaces " + kScene + ".csv --rays 16 --tree " + shape + " -o p");
+        ASSERT_EQ(baked.exitCode, 0) << baked.err;
+        const Result<Pack> pack = Pack::open(temp_ / "p");
+        ASSERT_TRUE(pack.ok());
+        EXPECT_NE(pack->index().options.find("\"tree\":\"" + shape + "\""), std::string::npos) << pack->index().options;
+        nodes[count] = pack->nodeCount();
+        patches[count++] = pack->patchCount();
+    }
+    EXPECT_EQ(patches[0], patches[1]);
+    EXPECT_EQ(patches[0], patches[2]);
+    EXPECT_LT(nodes[2], nodes[0]) << "no planar levels";
+    expectRefusal(kScene + ".obj --surfaces " + kScene + ".csv -o q --tree oak", "--tree");
+}
+
 TEST_F(BakeCli, CompactLinksAreSmallerAndSaidToBe)
 {
     put("town.geojson", kTown);

@@ -30,7 +30,8 @@ struct CommandLine
     std::string output, stats, pack, surfaces, explain;
     std::vector<std::string> attributes; ///< NAME=VALUE
     std::vector<double> bbox;            ///< west, south, east, north
-    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto";
+    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto",
+                tree = treeShapeName(TreeShape::Grammar);
     bool zstd = false, compactLinks = false;
     FactorOptions factors;
     ExportOptions exporting;
@@ -74,6 +75,12 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
                    "what exchanges light as one: piece, or bay = wall and opening of a bay together")
         ->check(CLI::IsMember({"piece", "bay"}))
         ->type_name("MODE")
+        ->capture_default_str();
+    app.add_option("--tree", line.tree,
+                   "levels above the patches: grammar = those of the rules; free = one balanced tree of rectangles a "
+                   "plane; faces = none (both to measure against)")
+        ->check(CLI::IsMember({"grammar", "free", "faces"}))
+        ->type_name("SHAPE")
         ->capture_default_str();
     app.add_flag("--tree-only", bake.treeOnly,
                  "derive the buildings and make their node tree, print statistics, and stop: no links, no pack");
@@ -162,6 +169,8 @@ Status completeOptions(CommandLine& line)
         if (line.method == methodName(method)) line.bake.light.method = method;
     line.bake.import.keepFirstEdge = line.front == "first";
     line.bake.nodes.patch = line.patch == "bay" ? PatchMode::Bay : PatchMode::Piece;
+    for (const TreeShape shape : {TreeShape::Grammar, TreeShape::Free, TreeShape::Faces})
+        if (line.tree == treeShapeName(shape)) line.bake.nodes.tree = shape;
     return Nothing{};
 }
 

@@ -53,6 +53,8 @@ Result<Pack> Pack::open(const std::filesystem::path& folder)
     Pack pack;
     pack.index_ = std::move(index->index);
     pack.tile_ = tile->view;
+    const auto stored = [&](SectionId id) { return tile->storedBytes[u32(id) - 1]; };
+    pack.linkBytes_ = {stored(SectionId::LinkColumns), stored(SectionId::LinkFactors), stored(SectionId::LinkMoments)};
     pack.bytes_ = bytes;
     return pack;
 }

@@ -60,6 +60,12 @@ struct TileView
     std::span<const gpu::ChildSlopeRecord> childSlopes;
 };
 
+/// What the links take in the file, bytes; rows not counted.
+struct LinkBytes
+{
+    u64 columns = 0, factors = 0, moments = 0;
+};
+
 /// A pack opened for reading. Every offset, count and index in it has been checked against its bounds.
 class Pack
 {
@@ -70,12 +76,14 @@ public:
 
     const PackIndex& index() const { return index_; }
     const TileView& tile() const { return tile_; }
+    const LinkBytes& linkBytes() const { return linkBytes_; }
     u32 patchCount() const { return u32(tile_.patches.size()); }
     u32 nodeCount() const { return u32(tile_.nodes.size()); }
 
 private:
     PackIndex index_;
     TileView tile_;
+    LinkBytes linkBytes_;
     std::shared_ptr<const void> bytes_; ///< keeps the mapping (or the decompressed sections) alive
 };
 

@@ -69,8 +69,16 @@ template <class View, class Visit> void forEachSection(View& tile, Visit&& visit
 enum class SectionCodec : u32
 {
     Raw = 0,
-    Zstd = 1
+    Zstd = 1,
+    Compact = 2,    ///< columns, factors and moments of the links alone: compact_links.h
+    CompactZstd = 3 ///< the compact form as one zstd frame
 };
+
+/// True for the sections that have a compact form.
+constexpr bool hasCompactForm(SectionId id)
+{
+    return id == SectionId::LinkColumns || id == SectionId::LinkFactors || id == SectionId::LinkMoments;
+}
 
 inline constexpr std::array<char, 8> kTileMagic{'H', 'E', 'L', 'I', 'O', 'T', 'I', 'L'};
 inline constexpr u64 kSectionAlignment = 64;
@@ -94,7 +102,7 @@ struct SectionEntry
     u32 codec = 0;
     u64 offset = 0;      ///< bytes from the start of the file, a multiple of 64
     u64 storedBytes = 0; ///< bytes in the file
-    u64 rawBytes = 0;    ///< bytes after unpacking; equal to storedBytes for codec 0
+    u64 rawBytes = 0;    ///< bytes in canonical form; equal to storedBytes for codec 0
     u64 checksum = 0;    ///< XXH3-64 of the stored bytes
     u64 zero = 0;
 };

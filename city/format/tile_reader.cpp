@@ -8,6 +8,7 @@
 #include <zstd.h>
 
 #include "city/base/hash.h"
+#include "city/format/compact_links.h"
 
 namespace helio {
 namespace {
@@ -29,9 +30,12 @@ const char* nameOf(SectionId id)
 /// zstd stores a run of 128 KiB in 4 bytes at best; a larger ratio is a forged size.
 constexpr u64 kLargestRatio = 65536;
 
+using Bytes = std::span<const std::byte>;
+using Block = std::unique_ptr<std::byte[]>;
+
 struct TileParser
 {
-    std::span<const std::byte> bytes;
+    Bytes bytes;
     const std::string& name;
     TileHeader header;
     std::array<SectionEntry, kSectionCount> entries;
@@ -74,7 +78,7 @@ struct TileParser
             const u64 place = sizeof(TileHeader) + i * sizeof(SectionEntry);
             const char* section = nameOf(SectionId(i + 1));
             if (entry.id != i + 1) return fail(place, "section ", entry.id, " where section ", i + 1, " is due");
-            if (entry.codec > u32(SectionCodec::Zstd))
+            if (entry.codec > u32(hasCompactForm(SectionId(i + 1)) ? SectionCodec::CompactZstd : SectionCodec::Zstd))
                 return fail(place + 4, "section ", section, ": unknown codec ", entry.codec);
             if (entry.zero != 0) return fail(place + 40, "section ", section, ": the reserved bytes are not zero");
             if (entry.offset != alignSection(end))
@@ -82,8 +86,7 @@ struct TileParser
                             " is due");
             if (entry.offset > bytes.size() || entry.storedBytes > bytes.size() - entry.offset)
                 return fail(place + 16, "section ", section, ": ends beyond the file of ", bytes.size(), " bytes");
-            const bool plain = entry.codec == u32(SectionCodec::Raw);
-            if (plain ? entry.rawBytes != entry.storedBytes : entry.rawBytes / kLargestRatio > entry.storedBytes)
+            if (!canHold(entry))
                 return fail(place + 24, "section ", section, ": ", entry.storedBytes, " bytes cannot hold ",
                             entry.rawBytes);
             for (u64 at = end; at < entry.offset; ++at)
@@ -94,25 +97,105 @@ struct TileParser
         return Nothing{};
     }
 
-    Result<std::span<const std::byte>> readSection(u32 i, LoadedTile& tile) const
+    /// Whether the bytes in the file can be as many as the table says after unpacking. The size of what compact links
+    /// unpack to follows from the link rows (expandLinks).
+    static bool canHold(const SectionEntry& entry)
+    {
+        switch (SectionCodec(entry.codec)) {
+        case SectionCodec::Raw:
+            return entry.rawBytes == entry.storedBytes;
+        case SectionCodec::Zstd:
+            return entry.rawBytes / kLargestRatio <= entry.storedBytes;
+        case SectionCodec::Compact:
+        case SectionCodec::CompactZstd:
+            break;
+        }
+        return entry.storedBytes < entry.rawBytes;
+    }
+
+    Result<Block> allocate(const char* section, u64 size) const
+    {
+        Block block(new (std::nothrow) std::byte[size]);
+        if (!block) return Error{concat(name, ": section ", section, ": no memory for ", size, " bytes")};
+        return block;
+    }
+
+    /// One zstd frame of `size` bytes after unpacking.
+    Result<Block> unpackFrame(u32 i, Bytes stored, u64 size) const
+    {
+        const char* section = nameOf(SectionId(i + 1));
+        if (ZSTD_getFrameContentSize(stored.data(), stored.size()) != size)
+            return fail(entries[i].offset, "section ", section, ": the packed data do not hold ", size, " bytes");
+        Result<Block> block = allocate(section, size);
+        if (!block) return block;
+        const size_t written = ZSTD_decompress(block->get(), size, stored.data(), stored.size());
+        if (ZSTD_isError(written) || written != size)
+            return fail(entries[i].offset, "section ", section, ": cannot be unpacked");
+        return block;
+    }
+
+    /// The canonical form of a section of links; rows, and for moments columns and factors, have been read before it.
+    Result<Block> expandLinks(u32 i, Bytes payload, const TileView& tile) const
     {
         const SectionEntry& entry = entries[i];
-        const std::span<const std::byte> stored = bytes.subspan(entry.offset, entry.storedBytes);
+        const SectionId id = SectionId(i + 1);
+        const char* section = nameOf(id);
+        const auto place = [&](const Error& error) {
+            return fail(entry.offset, "section ", section, ": ", error.message);
+        };
+        // A link takes a byte of columns or factors at least, and has a column before it has moments: what is
+        // allocated here is in proportion to the file.
+        const u64 linkBytes = id == SectionId::LinkMoments ? 2 * sizeof(float) : sizeof(u32);
+        const u64 linkCount = entry.rawBytes / linkBytes;
+        const bool fits = id == SectionId::LinkMoments
+                              ? tile.linkColumns.size() == linkCount && tile.linkFactors.size() == linkCount
+                              : payload.size() >= linkCount;
+        if (entry.rawBytes % linkBytes != 0 || !fits)
+            return fail(entry.offset, "section ", section, ": ", payload.size(), " bytes cannot hold ", linkCount,
+                        " links");
+        if (Status rows = checkLinkRows(tile.linkRows, linkCount); !rows) return place(rows.error());
+        Result<Block> block = allocate(section, entry.rawBytes);
+        if (!block) return block;
+        const std::span<float> floats(reinterpret_cast<float*>(block->get()), entry.rawBytes / sizeof(float));
+        Status status = Nothing{};
+        if (id == SectionId::LinkColumns)
+            status = decodeLinkColumns(payload, tile.linkRows, {reinterpret_cast<u32*>(block->get()), linkCount});
+        else if (id == SectionId::LinkFactors)
+            status = decodeLinkFactors(payload, tile.linkRows, floats);
+        else
+            status = decodeLinkMoments(payload, tile.linkRows, tile.linkColumns, tile.linkFactors, floats);
+        if (!status) return place(status.error());
+        return block;
+    }
+
+    /// The canonical bytes of a section: in place, or in a block that `tile` keeps.
+    Result<Bytes> readSection(u32 i, LoadedTile& tile) const
+    {
+        const SectionEntry& entry = entries[i];
+        const Bytes stored = bytes.subspan(entry.offset, entry.storedBytes);
         const char* section = nameOf(SectionId(i + 1));
         if (hashBytes(stored) != entry.checksum)
             return fail(entry.offset, "section ", section, ": the checksum of its ", entry.storedBytes,
                         " bytes does not match");
-        if (entry.codec == u32(SectionCodec::Raw)) return stored;
+        const SectionCodec codec = SectionCodec(entry.codec);
+        if (codec == SectionCodec::Raw) return stored;
 
-        if (ZSTD_getFrameContentSize(stored.data(), stored.size()) != entry.rawBytes)
-            return fail(entry.offset, "section ", section, ": the packed data do not hold ", entry.rawBytes, " bytes");
-        std::unique_ptr<std::byte[]> raw(new (std::nothrow) std::byte[entry.rawBytes]);
-        if (!raw) return Error{concat(name, ": section ", section, ": no memory for ", entry.rawBytes, " bytes")};
-        const size_t written = ZSTD_decompress(raw.get(), entry.rawBytes, stored.data(), stored.size());
-        if (ZSTD_isError(written) || written != entry.rawBytes)
-            return fail(entry.offset, "section ", section, ": cannot be unpacked");
-        const std::span<const std::byte> unpacked(raw.get(), entry.rawBytes);
-        tile.unpacked.push_back(std::move(raw));
+        Result<Block> block = Block();
+        if (codec == SectionCodec::Zstd) {
+            block = unpackFrame(i, stored, entry.rawBytes);
+        } else if (codec == SectionCodec::Compact) {
+            block = expandLinks(i, stored, tile.view);
+        } else {
+            const u64 size = ZSTD_getFrameContentSize(stored.data(), stored.size());
+            if (size >= entry.rawBytes || size / kLargestRatio > entry.storedBytes) // Unknown sizes are huge numbers.
+                return fail(entry.offset, "section ", section, ": the packed data are no compact links");
+            const Result<Block> payload = unpackFrame(i, stored, size);
+            if (!payload) return payload.error();
+            block = expandLinks(i, {payload->get(), size}, tile.view);
+        }
+        if (!block) return block.error();
+        const Bytes unpacked(block->get(), entry.rawBytes);
+        tile.unpacked.push_back(std::move(*block));
         return unpacked;
     }
 };
@@ -142,7 +225,8 @@ Result<LoadedTile> readTile(std::span<const std::byte> bytes, const std::string&
         const u32 i = u32(id) - 1;
         tile.places.offset[i] = parser.entries[i].offset;
         tile.places.packed[i] = parser.entries[i].codec != u32(SectionCodec::Raw);
-        Result<std::span<const std::byte>> data = parser.readSection(i, tile);
+        tile.storedBytes[i] = parser.entries[i].storedBytes;
+        Result<Bytes> data = parser.readSection(i, tile);
         if (!data)
             failure = data.error();
         else if (data->size() % sizeof(T) != 0)

@@ -27,12 +27,13 @@ struct LoadedTile
     TileView view;
     SectionPlaces places;
     u64 tableChecksum = 0;
+    std::array<u64, kSectionCount> storedBytes{}; ///< in the file
     std::vector<std::unique_ptr<std::byte[]>> unpacked;
 };
 
-/// Reads the container of a tile: magic, version, size, table, checksums, codecs and whole records. Does not look at
-/// the records' values (validateTile does). `bytes` must be aligned to 16 and outlive the result; `name` is used in
-/// errors.
+/// Reads the container of a tile: magic, version, size, table, checksums, codecs and whole records; everything comes
+/// out in canonical form. Does not look at the records' values (validateTile does). `bytes` must be aligned to 16 and
+/// outlive the result; `name` is used in errors.
 Result<LoadedTile> readTile(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace helio

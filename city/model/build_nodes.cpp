@@ -36,7 +36,7 @@ class Builder
 public:
     /// `spent`: the same shapes, if their polygons may be taken; else null.
     Builder(const ShapeTree& shapes, ShapeTree* spent, std::span<const AssetSummary> assets, const NodeOptions& options)
-        : shapes_(shapes), spent_(spent), assets_(assets)
+        : shapes_(shapes), spent_(spent), assets_(assets), treeShape_(options.tree)
     {
         HELIO_CHECK(assets.size() == shapes.assets.size(), assets.size(), " asset summaries, ", shapes.assets.size(),
                     " assets");
@@ -303,7 +303,8 @@ private:
         // Children hand their items up last one first.
         const bool own = cells_.pieceRow[shapeIndex] != cells_.pieceRow[shapeIndex + 1];
         if (!own) std::reverse(items.begin(), items.end());
-        if (items.size() > 1 && (shape.op != ShapeOp::Root || own)) items = mergePlanes(shape, items);
+        if (items.size() > 1 && (shape.op != ShapeOp::Root || own) && treeShape_ != TreeShape::Faces)
+            items = mergePlanes(shape, items);
         if (cells_.isSolid[shapeIndex] != 0 && items.size() > 1) items = {makeCluster(shape, items)};
         if (shape.op != ShapeOp::Component && shape.parent != kNoIndex) {
             std::vector<u32>& above = itemsOf_[shape.parent];
@@ -336,7 +337,8 @@ private:
         return merged;
     }
 
-    /// A planar node that recursive rules made deep, as one balanced tree over the same leaves; else the node itself.
+    /// A planar node that recursive rules made deep as one balanced tree over the same leaves, with TreeShape::Free any
+    /// planar node; else the node itself.
     u32 flatter(const Shape& shape, u32 item)
     {
         if (raw_[item].sealed || raw_[item].node.kind == NodeKind::Cluster) return item;
@@ -348,7 +350,8 @@ private:
             (children.empty() ? leaves : inner).push_back(at);
             stack.insert(stack.end(), children.rbegin(), children.rend());
         }
-        if (raw_[item].node.height <= 2 * u32(std::bit_width(leaves.size())) + kSlackDepth) return item;
+        const u32 deep = treeShape_ == TreeShape::Free ? 1 : 2 * u32(std::bit_width(leaves.size())) + kSlackDepth;
+        if (raw_[item].node.height <= deep) return item;
         for (const u32 node : inner) raw_[node].dead = true;
         return makePlane(shape, leaves);
     }
@@ -426,6 +429,7 @@ private:
     const ShapeTree& shapes_;
     ShapeTree* spent_;
     std::span<const AssetSummary> assets_;
+    TreeShape treeShape_;
     PatchCells cells_;
     NodeTreeBuild build_;
     std::vector<u64> keys_; // per shape
@@ -437,6 +441,19 @@ private:
 };
 
 } // namespace
+
+const char* treeShapeName(TreeShape shape)
+{
+    switch (shape) {
+    case TreeShape::Grammar:
+        return "grammar";
+    case TreeShape::Free:
+        return "free";
+    case TreeShape::Faces:
+        return "faces";
+    }
+    HELIO_CHECK(false, int(shape));
+}
 
 NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets, const NodeOptions& options)
 {

@@ -54,13 +54,16 @@ struct NodeTreeBuild
     double areaDefect = 0.0;
 };
 
+/// "grammar", "free" or "faces".
+const char* treeShapeName(TreeShape shape);
+
 /// Builds the node tree from a derivation (city/README.md). Leaves become patches (NodeOptions); coplanar patches under
 /// one shape form planar nodes, covered and free ones apart; long sequences get balanced binary nodes, and a face whose
 /// rules recurse is rebuilt as one balanced tree, so that depth stays logarithmic; everything else, protruding solids
-/// included, is a cluster. `assets` holds one entry an asset of the derivation; its reflectance replaces that of the
-/// tile which the asset fills. An overlay takes the id of the patch behind it. The mean reflectance and emission of a
-/// patch are weighted by area, so that totals of area, rho x area and emission x area do not depend on the options.
-/// O(n log n) in the number of leaves.
+/// included, is a cluster (TreeShape::Grammar; see there for the others). `assets` holds one entry an asset of the
+/// derivation; its reflectance replaces that of the tile which the asset fills. An overlay takes the id of the patch
+/// behind it. The mean reflectance and emission of a patch are weighted by area, so that totals of area, rho x area and
+/// emission x area do not depend on the options. O(n log n) in the number of leaves.
 NodeTreeBuild buildNodes(const ShapeTree& shapes, std::span<const AssetSummary> assets,
                          const NodeOptions& options = {});
 

@@ -14,8 +14,16 @@ enum class PatchMode : u8
     Bay    ///< wall and opening of a bay are one patch with their mean reflectance
 };
 
-/// How the leaves of a derivation become patches. Leaves of given hierarchies (ShapeOp::Group, OBJ faces) and faces of
-/// solids are never merged; OBJ faces and tiles with assets are never cut.
+/// What the planar levels of the node tree follow. The patches are the same in all.
+enum class TreeShape : u8
+{
+    Grammar, ///< the derivation, with balanced binary nodes inside long sequences
+    Free,    ///< the plane alone: every planar root is one balanced guillotine tree over its patches
+    Faces    ///< nothing: every patch is a planar root, as the input polygons of Hanrahan, Salzman and Aupperle (1991)
+};
+
+/// How the leaves of a derivation become patches, and these the tree. Leaves of given hierarchies (ShapeOp::Group, OBJ
+/// faces) and faces of solids are never merged; OBJ faces and tiles with assets are never cut.
 struct NodeOptions
 {
     PatchMode patch = PatchMode::Piece;
@@ -24,6 +32,8 @@ struct NodeOptions
     /// Steep leaves (more than 60 degrees, at least 1 m wide) higher than `mergeSize` are cut into horizontal strips of
     /// equal height, at most this, m: a floor (one value a facade is wrong in deep streets). 0: not cut.
     double stripHeight = 3.5;
+    /// Other shapes than the grammar's are there to measure it against.
+    TreeShape tree = TreeShape::Grammar;
 };
 
 /// Polygons of one leaf in one plane: what is drawn with one albedo.

@@ -237,7 +237,8 @@ private:
                                            {"rays_per_link", options_.light.raysPerLink},
                                            {"cutoff_m", options_.light.cutoff},
                                            {"default_height_m", options_.import.defaultHeight},
-                                           {"patch", options_.nodes.patch == PatchMode::Bay ? "bay" : "piece"}};
+                                           {"patch", options_.nodes.patch == PatchMode::Bay ? "bay" : "piece"},
+                                           {"tree", treeShapeName(options_.nodes.tree)}};
         if (!options_.style.empty()) settings["style"] = options_.style;
         if (options_.import.lod2) settings["surfaces"] = "lod2";
         for (const auto& [name, value] : options_.attributes)

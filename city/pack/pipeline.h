@@ -50,6 +50,7 @@ struct BakeStats
     DeriveCounts derivation;
     std::map<std::string, u32> import; ///< census and repairs: Layout::counts
     LightStats light;
+    LinkBytes linkBytes;                   ///< of the pack, once it is written (writePack)
     std::map<std::string, double> reports; ///< report() of the rules, summed per key
     std::vector<std::string> notes;        ///< repaired or skipped input and warnings of the rules, one line each
     std::vector<StepSeconds> seconds;      ///< of each step, in order

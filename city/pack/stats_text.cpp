@@ -118,6 +118,17 @@ nlohmann::ordered_json derivationJson(const BakeStats& stats)
             {"roofs_flat", made.roofs.flat}};
 }
 
+/// Per link; a pack without links has none.
+nlohmann::ordered_json linkBytesJson(const BakeStats& stats)
+{
+    const double count = double(std::max<u64>(stats.light.linkCount, 1));
+    const LinkBytes& bytes = stats.linkBytes;
+    return {{"columns", double(bytes.columns) / count},
+            {"factors", double(bytes.factors) / count},
+            {"moments", double(bytes.moments) / count},
+            {"per_link", double(bytes.columns + bytes.factors + bytes.moments) / count}};
+}
+
 } // namespace
 
 double peakMemoryMiB()
@@ -127,13 +138,24 @@ double peakMemoryMiB()
     return double(usage.ru_maxrss) / 1024.0; // Linux counts KiB.
 }
 
+std::string linkBytesText(const LinkBytes& bytes, u64 linkCount)
+{
+    const double count = double(std::max<u64>(linkCount, 1));
+    return printed("columns %.2f, factors %.2f, moments %.2f, in all %.2f", double(bytes.columns) / count,
+                   double(bytes.factors) / count, double(bytes.moments) / count,
+                   double(bytes.columns + bytes.factors + bytes.moments) / count);
+}
+
 std::string statsText(const BakeStats& stats, double peakMiB)
 {
     std::string text;
     line(text, "  buildings %u, nodes %u, patches %u, asset instances %u, triangles %llu", stats.buildings, stats.nodes,
          stats.patches, stats.instances, static_cast<unsigned long long>(stats.triangles));
     if (stats.derivation.shapes > 0) derivationLines(text, stats);
-    if (!stats.treeOnly) lightLines(text, stats.light);
+    if (!stats.treeOnly) {
+        lightLines(text, stats.light);
+        line(text, "  %-20s %s", "bytes a link", linkBytesText(stats.linkBytes, stats.light.linkCount).c_str());
+    }
     line(text, "  %-20s %.2e", "area-ledger defect", stats.areaDefect);
     if (stats.overlappingNodes > 0)
         line(text, "  %-20s %u (their children have more area than their outline)", "overlapping nodes",
@@ -166,7 +188,10 @@ std::string statsJson(const BakeStats& stats, double peakMiB)
     json["merged_leaves"] = stats.mergedLeaves;
     json["slivers"] = stats.slivers;
     json["strips"] = stats.strips;
-    if (!stats.treeOnly) addLight(json, stats.light);
+    if (!stats.treeOnly) {
+        addLight(json, stats.light);
+        json["link_bytes"] = linkBytesJson(stats);
+    }
     json["area_ledger_defect"] = stats.areaDefect;
     json["overlapping_nodes"] = stats.overlappingNodes;
     json["dropped_polygons"] = stats.degeneratePolygons;

@@ -9,6 +9,9 @@ namespace helio {
 /// Most memory that this process has held, MiB.
 double peakMemoryMiB();
 
+/// What the links of a pack take, bytes a link, in words.
+std::string linkBytesText(const LinkBytes& bytes, u64 linkCount);
+
 /// The statistics of a bake for people: a few aligned lines.
 std::string statsText(const BakeStats& stats, double peakMiB);
 

@@ -13,6 +13,7 @@
 #include "city/base/hash.h"
 #include "city/format/sections.h"
 #include "city/format/validate.h"
+#include "city/pack/encode_links.h"
 
 namespace helio {
 namespace {
@@ -31,6 +32,12 @@ struct TilePieces
     std::array<u64, kSectionCount> offset{};
     std::vector<std::vector<std::byte>> packed; ///< what `stored` points into where a section is packed
     TileEntry entry;
+
+    LinkBytes linkBytes() const
+    {
+        const auto size = [&](SectionId id) { return u64(stored[u32(id) - 1].size()); };
+        return {size(SectionId::LinkColumns), size(SectionId::LinkFactors), size(SectionId::LinkMoments)};
+    }
 };
 
 std::vector<std::byte> packBytes(Bytes raw)
@@ -43,24 +50,32 @@ std::vector<std::byte> packBytes(Bytes raw)
     return packed;
 }
 
-TilePieces layOut(const TileView& tile, bool zstd)
+TilePieces layOut(const TileView& tile, bool zstd, bool compactLinks)
 {
     TilePieces pieces;
     TileHeader header;
     std::array<SectionEntry, kSectionCount> entries;
+    CompactLinks links;
+    if (compactLinks) links = encodeLinks(tile);
     u64 end = kTableBytes;
     forEachSection(tile, [&]<class T>(SectionId id, const char*, std::span<const T> span) {
         const u32 i = u32(id) - 1;
         const Bytes raw = std::as_bytes(span);
         Bytes stored = raw;
-        SectionCodec codec = SectionCodec::Raw;
+        bool packed = false, compact = false;
+        if (std::vector<std::byte>* payload = links.of(id); payload != nullptr && payload->size() < raw.size()) {
+            compact = true;
+            stored = pieces.packed.emplace_back(std::move(*payload));
+        }
         if (zstd && !raw.empty()) {
-            std::vector<std::byte> packed = packBytes(raw);
-            if (packed.size() < raw.size()) {
-                codec = SectionCodec::Zstd;
-                stored = pieces.packed.emplace_back(std::move(packed));
+            std::vector<std::byte> frame = packBytes(stored);
+            if (frame.size() < stored.size()) {
+                packed = true;
+                stored = pieces.packed.emplace_back(std::move(frame));
             }
         }
+        const SectionCodec codec = compact ? (packed ? SectionCodec::CompactZstd : SectionCodec::Compact)
+                                           : (packed ? SectionCodec::Zstd : SectionCodec::Raw);
         pieces.stored[i] = stored;
         pieces.offset[i] = alignSection(end);
         entries[i] = {u32(id), u32(codec), pieces.offset[i], stored.size(), raw.size(), hashBytes(stored), 0};
@@ -197,9 +212,9 @@ fs::path withoutTrailingSlash(const fs::path& folder)
 
 } // namespace
 
-EncodedTile encodeTile(const TileView& tile, bool zstd)
+EncodedTile encodeTile(const TileView& tile, bool zstd, bool compactLinks)
 {
-    const TilePieces pieces = layOut(tile, zstd);
+    const TilePieces pieces = layOut(tile, zstd, compactLinks);
     EncodedTile out{{}, pieces.entry};
     out.bytes.reserve(pieces.entry.bytes);
     forEachPiece(pieces, [&](Bytes bytes) { out.bytes.insert(out.bytes.end(), bytes.begin(), bytes.end()); });
@@ -232,14 +247,14 @@ Status checkContent(const PackContent& content, const std::string& name)
     return validateTile(content.view(), content.index, places);
 }
 
-Status writePack(const PackContent& content, const fs::path& folder, const WriteOptions& options)
+Result<LinkBytes> writePack(const PackContent& content, const fs::path& folder, const WriteOptions& options)
 {
     const TileView tile = content.view();
-    if (Status status = checkPackTarget(folder); !status) return status;
+    if (Status status = checkPackTarget(folder); !status) return status.error();
     const fs::path target = withoutTrailingSlash(folder);
-    if (Status status = checkContent(content, target.string()); !status) return status;
+    if (Status status = checkContent(content, target.string()); !status) return status.error();
 
-    const TilePieces pieces = layOut(tile, options.zstd);
+    const TilePieces pieces = layOut(tile, options.zstd, options.compactLinks);
     fs::path temporary = target;
     temporary += concat(".part-", getpid());
     TemporaryFolder part(temporary);
@@ -247,15 +262,15 @@ Status writePack(const PackContent& content, const fs::path& folder, const Write
 
     ChunkedFile tileFile(part.path() / kTileFile, options);
     forEachPiece(pieces, [&](Bytes bytes) { tileFile.write(bytes); });
-    if (Status status = tileFile.close(target); !status) return status;
+    if (Status status = tileFile.close(target); !status) return status.error();
     ChunkedFile indexFile(part.path() / kIndexFile, options);
     const std::string text = encodeIndex(content.index, pieces.entry);
     indexFile.write(std::as_bytes(std::span(text)));
-    if (Status status = indexFile.close(target); !status) return status;
+    if (Status status = indexFile.close(target); !status) return status.error();
 
     if (const std::error_code failure = exchangeFolders(part.path(), target))
         return Error{concat(target.string(), ": cannot be written: ", failure.message())};
-    return Nothing{};
+    return pieces.linkBytes();
 }
 
 } // namespace helio

@@ -32,7 +32,7 @@ void mutate(std::vector<std::uint8_t>& bytes, Random& random)
     const auto below = [&](size_t n) { return size_t(random.next() % std::max<size_t>(n, 1)); };
     for (size_t step = 0, count = 1 + below(4); step < count && bytes.size() >= 8; ++step) {
         const size_t at = below(bytes.size()), word = below(bytes.size() / 4 - 1) * 4;
-        switch (below(8)) {
+        switch (below(9)) {
         case 0:
             bytes[at] = std::uint8_t(bytes[at] ^ (1u << below(8)));
             break;
@@ -53,7 +53,16 @@ void mutate(std::vector<std::uint8_t>& bytes, Random& random)
         case 5:
             std::memcpy(&bytes[word], &bytes[below(bytes.size() / 4 - 1) * 4], 4);
             break;
-        case 6: // Most of the file is table; aim at the table's fields on purpose.
+        case 6: { // Links are a small part of the file; aim at them on purpose.
+            if (bytes.size() <= kTableBytes) break;
+            SectionEntry entry;
+            const size_t section = size_t(SectionId::LinkRows) - 1 + below(4);
+            std::memcpy(&entry, &bytes[sizeof(TileHeader) + section * sizeof entry], sizeof entry);
+            if (entry.offset < bytes.size() && entry.storedBytes <= bytes.size() - entry.offset)
+                bytes[entry.offset + below(entry.storedBytes)] = std::uint8_t(random.next());
+            break;
+        }
+        case 7: // Most of the file is table; aim at the table's fields on purpose.
             if (bytes.size() > kTableBytes)
                 std::memcpy(&bytes[sizeof(TileHeader) + 8 * below(kSectionCount * 6)], &kTelling[below(4)], 4);
             break;
@@ -104,13 +113,16 @@ void mutateText(std::vector<std::uint8_t>& bytes, Random& random)
 
 int run(u64 count, u64 seed)
 {
-    const PackContent content = test::samplePack();
+    const PackContent content = test::samplePack(), linked = test::linkedPack();
     const EncodedTile plain = encodeTile(content.view(), false), packed = encodeTile(content.view(), true);
     const std::string index = encodeIndex(content.index, plain.entry);
     const std::vector<std::uint8_t> seeds[] = {toBytes(plain.bytes), toBytes(packed.bytes),
-                                               toBytes(std::as_bytes(std::span(index)))};
+                                               toBytes(std::as_bytes(std::span(index))),
+                                               toBytes(encodeTile(linked.view(), false, true).bytes),
+                                               toBytes(encodeTile(linked.view(), true, true).bytes)};
     for (const std::vector<std::uint8_t>& bytes : seeds) LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
-    if (acceptedTiles != 4) {
+    constexpr u64 kGood = 8; // Four tiles, as they are and sealed.
+    if (acceptedTiles != kGood) {
         std::printf("the good tiles are not accepted\n");
         return 1;
     }
@@ -124,9 +136,9 @@ int run(u64 count, u64 seed)
         LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     }
     std::printf("%llu mutated packs, %llu of them readable; indices: %llu readable, %llu not\n",
-                static_cast<unsigned long long>(count), static_cast<unsigned long long>(acceptedTiles - 4),
+                static_cast<unsigned long long>(count), static_cast<unsigned long long>(acceptedTiles - kGood),
                 static_cast<unsigned long long>(acceptedIndices), static_cast<unsigned long long>(refusedIndices));
-    return acceptedTiles > 4 && acceptedIndices > 1 && refusedIndices > 0 ? 0 : 1;
+    return acceptedTiles > kGood && acceptedIndices > 1 && refusedIndices > 0 ? 0 : 1;
 }
 
 } // namespace

@@ -48,8 +48,10 @@ float walk(const TileView& tile)
 {
     float sum = 0.0f;
     for (u64 i = 0; i < tile.nodes.size(); ++i) {
-        for (u32 k = tile.linkRows[i]; k < tile.linkRows[i + 1]; ++k)
+        for (u32 k = tile.linkRows[i]; k < tile.linkRows[i + 1]; ++k) {
             sum += tile.linkFactors[k] * tile.nodes[tile.linkColumns[k]].area;
+            if (!tile.linkMoments.empty()) sum += tile.linkMoments[2 * k] + tile.linkMoments[2 * k + 1];
+        }
         for (u32 k = 0; k < tile.nodes[i].childCount; ++k)
             sum += tile.nodeInfos[tile.children[tile.nodes[i].childBegin + k]].coverage;
         for (u32 r = tile.outlineRows[i]; r < tile.outlineRows[i + 1]; ++r)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 add_executable(light_test
     cities/tree_audit.cpp
+    numeric/compact_links_test.cpp
     numeric/covered_test.cpp
     numeric/factor_rows.cpp
     numeric/factors_occluded_test.cpp
@@ -17,5 +18,5 @@ add_executable(light_test
     numeric/visibility_test.cpp
     accuracy/csv_table.cpp)
 target_compile_definitions(light_test PRIVATE HELIO_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
-target_link_libraries(light_test PRIVATE city_light city_layout GTest::gtest_main)
+target_link_libraries(light_test PRIVATE city_light city_layout city_pack GTest::gtest_main)
 gtest_discover_tests(light_test PROPERTIES LABELS numeric)

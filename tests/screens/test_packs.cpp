@@ -37,7 +37,8 @@ Status bakeOne(TestPack which)
     if (!baked) return baked.error();
     std::error_code failure;
     std::filesystem::create_directories(HELIO_SCREENS_PACKS, failure);
-    return writePack(baked->content, folderOf(which));
+    const Result<LinkBytes> written = writePack(baked->content, folderOf(which));
+    return written ? Status(Nothing{}) : written.error();
 }
 
 } // namespace

@@ -88,6 +88,71 @@ TEST(BuildNodes, ARowOfBaysBecomesABalancedBinaryTreeOfRectangles)
     EXPECT_EQ(tree.outlineOf(tree.nodeCount() - 1)[0].size(), 4u);
 }
 
+TEST(BuildNodes, TreeShapesShareThePatchesAndDifferAbove)
+{
+    // A row of four tiles that the rules take apart in a bad order (first and third, second and fourth), a lone tile on
+    // a face of its own, and a solid of two planes.
+    Scene scene;
+    const u32 facade = scene.add(0, ShapeOp::Component);
+    for (const int first : {0, 1}) {
+        const u32 part = scene.add(facade, ShapeOp::Split);
+        for (const int i : {first, first + 2}) scene.addLeaf(part, {wall(i, 0, i + 1, 3)});
+    }
+    scene.addLeaf(scene.add(0, ShapeOp::Component), {wall(9, 0, 10, 3)});
+    scene.addLeaf(0, {wall(20, 0, 21, 1), {{{20, 0, 1}, {21, 0, 1}, {21, 1, 1}, {20, 1, 1}}, {}}});
+    const auto build = [&](TreeShape shape) {
+        NodeOptions options = kPlain;
+        options.tree = shape;
+        return buildNodes(scene.tree, {}, options).tree;
+    };
+    const NodeTree grammar = build(TreeShape::Grammar), free = build(TreeShape::Free), faces = build(TreeShape::Faces);
+    const auto countIf = [](const NodeTree& tree, const auto& wanted) {
+        u32 count = 0;
+        for (u32 i = 0; i < tree.nodeCount(); ++i) count += wanted(i) ? 1 : 0;
+        return count;
+    };
+    const auto partial = [&](const NodeTree& tree) {
+        return countIf(tree, [&](u32 i) { return tree.nodes[i].kind == NodeKind::PlanarPartial; });
+    };
+    const auto planarRoots = [&](const NodeTree& tree) {
+        return countIf(tree, [&](u32 i) { return tree.isPlanarRoot(i); });
+    };
+    for (const NodeTree* tree : {&grammar, &free, &faces}) {
+        checkTree(*tree);
+        ASSERT_EQ(tree->patchCount(), 7u);
+        for (u32 i = 0; i < 7; ++i) {
+            EXPECT_EQ(tree->patches[i].key, grammar.patches[i].key);
+            EXPECT_EQ(tree->nodes[i].centroid, grammar.nodes[i].centroid);
+        }
+        EXPECT_EQ(countIf(*tree, [&](u32 i) { return tree->nodes[i].parent == kNoIndex; }), 1u);
+    }
+    EXPECT_EQ(planarRoots(grammar), 4u);
+    EXPECT_EQ(partial(grammar), 2u) << "each with a gap as wide as a tile";
+    EXPECT_EQ(planarRoots(free), 4u);
+    EXPECT_EQ(partial(free), 0u);
+    EXPECT_EQ(free.nodeCount(), grammar.nodeCount()) << "a binary tree over the same four";
+    EXPECT_EQ(planarRoots(faces), 7u);
+    EXPECT_EQ(countIf(faces, [&](u32 i) { return !faces.isLeaf(i) && faces.nodes[i].kind != NodeKind::Cluster; }), 0u);
+}
+
+TEST(BuildNodes, AFreeTreeIsBalancedOverAllPatchesOfAFacade)
+{
+    Scene scene;
+    u32 rest = scene.add(0, ShapeOp::Component); // A rule that splits one tile off, again and again.
+    scene.addLeaf(rest, {wall(0, 0, 1, 1)});
+    for (int i = 1; i < 9; ++i) {
+        rest = scene.add(rest, ShapeOp::Split);
+        scene.addLeaf(rest, {wall(i, 0, i + 1, 1)});
+    }
+    NodeOptions options = kPlain;
+    EXPECT_EQ(buildNodes(scene.tree, {}, options).tree.nodes.back().height, 8u);
+    options.tree = TreeShape::Free;
+    const NodeTree tree = buildNodes(scene.tree, {}, options).tree;
+    checkTree(tree);
+    EXPECT_EQ(tree.nodes.back().height, 4u);
+    for (const Node& node : tree.nodes) EXPECT_EQ(node.kind, NodeKind::Tiling);
+}
+
 TEST(BuildNodes, AnOpeningMakesThePlanePartial)
 {
     Scene scene;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The built heliopolis-bake, run as a user runs it: bad input gets one line and exit code 1 and leaves nothing behind;
 // good input gives the same bytes for any number of threads.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -241,6 +242,58 @@ TEST_F(BakeCli, OptionsChangeTheBytes)
     EXPECT_EQ(Pack::open(temp_ / "b")->index().seed, 2u);
     EXPECT_EQ(Pack::open(temp_ / "c")->index().method, "paper");
     EXPECT_EQ(Pack::open(temp_ / "a")->index().source, "town.geojson");
+}
+
+TEST_F(BakeCli, TreeShapesAreRecorded)
+{
+    u32 nodes[3] = {}, patches[3] = {}, count = 0;
+    for (const std::string shape : {"grammar", "free", "faces"}) {
+        const RunResult baked = bake(kScene + ".obj --surfaces " + kScene + ".csv --rays 16 --tree " + shape + " -o p");
+        ASSERT_EQ(baked.exitCode, 0) << baked.err;
+        const Result<Pack> pack = Pack::open(temp_ / "p");
+        ASSERT_TRUE(pack.ok());
+        EXPECT_NE(pack->index().options.find("\"tree\":\"" + shape + "\""), std::string::npos) << pack->index().options;
+        nodes[count] = pack->nodeCount();
+        patches[count++] = pack->patchCount();
+    }
+    EXPECT_EQ(patches[0], patches[1]);
+    EXPECT_EQ(patches[0], patches[2]);
+    EXPECT_LT(nodes[2], nodes[0]) << "no planar levels";
+    expectRefusal(kScene + ".obj --surfaces " + kScene + ".csv -o q --tree oak", "--tree");
+}
+
+TEST_F(BakeCli, CompactLinksAreSmallerAndSaidToBe)
+{
+    put("town.geojson", kTown);
+    ASSERT_EQ(bake("town.geojson --rays 16 --stats a.json -o a").exitCode, 0);
+    const RunResult baked = bake("town.geojson --rays 16 --compact-links --jobs 1 --stats b.json -o b");
+    ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    ASSERT_EQ(bake("town.geojson --rays 16 --compact-links --jobs 2 -o c").exitCode, 0);
+    EXPECT_TRUE(bytesOf("b") == bytesOf("c"));
+    ASSERT_EQ(bake("town.geojson --rays 16 --compact-links --zstd -o d").exitCode, 0);
+    EXPECT_EQ(bake("verify d").exitCode, 0);
+
+    const Result<Pack> plain = Pack::open(temp_ / "a"), compact = Pack::open(temp_ / "b"),
+                       both = Pack::open(temp_ / "d");
+    ASSERT_TRUE(plain.ok() && compact.ok() && both.ok());
+    EXPECT_TRUE(std::ranges::equal(plain->tile().linkColumns, compact->tile().linkColumns));
+    EXPECT_TRUE(std::ranges::equal(both->tile().linkFactors, compact->tile().linkFactors));
+    const double links = double(plain->tile().linkColumns.size());
+    for (const auto& [name, pack] : {std::pair("a.json", &*plain), std::pair("b.json", &*compact)}) {
+        const nlohmann::json stats = nlohmann::json::parse(*readTextFile(temp_ / name), nullptr, false);
+        ASSERT_TRUE(stats.contains("link_bytes")) << name;
+        const nlohmann::json& bytes = stats["link_bytes"];
+        EXPECT_NEAR(bytes["columns"].get<double>(), double(pack->linkBytes().columns) / links, 1e-9) << name;
+        EXPECT_NEAR(bytes["factors"].get<double>(), double(pack->linkBytes().factors) / links, 1e-9) << name;
+        EXPECT_NEAR(bytes["moments"].get<double>(), double(pack->linkBytes().moments) / links, 1e-9) << name;
+    }
+    EXPECT_EQ(plain->linkBytes().columns, u64(4 * links));
+    EXPECT_LT(compact->linkBytes().columns, u64(1.5 * links));
+    EXPECT_LT(compact->linkBytes().factors, u64(2.5 * links));
+    EXPECT_LT(both->linkBytes().columns, compact->linkBytes().columns);
+    EXPECT_NE(baked.out.find("bytes a link         columns 1."), std::string::npos) << baked.out;
+    const RunResult info = bake("info b");
+    EXPECT_NE(info.out.find("link bytes  columns 1."), std::string::npos) << info.out;
 }
 
 TEST_F(BakeCli, AttributesCanBeSet)

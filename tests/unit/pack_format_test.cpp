@@ -14,7 +14,16 @@
 namespace helio {
 namespace {
 
+using test::linkedPack;
 using test::samplePack;
+
+/// Tiles in all codecs.
+std::vector<EncodedTile> tilesInAllCodecs()
+{
+    const PackContent sample = samplePack(), linked = linkedPack();
+    return {encodeTile(sample.view(), false), encodeTile(sample.view(), true), encodeTile(linked.view(), false, true),
+            encodeTile(linked.view(), true, true)};
+}
 
 /// A copy in a block of exactly its size, so that a sanitizer sees a read beyond the end.
 Result<LoadedTile> readCopy(const std::vector<std::byte>& bytes)
@@ -60,6 +69,128 @@ TEST(PackFormat, EverySectionComesBack)
     }
 }
 
+SectionEntry entryOf(const std::vector<std::byte>& bytes, SectionId id)
+{
+    SectionEntry entry;
+    std::memcpy(&entry, bytes.data() + sizeof(TileHeader) + (u32(id) - 1) * sizeof entry, sizeof entry);
+    return entry;
+}
+
+/// Puts a section's entry back, with the right checksums.
+void sealSection(std::vector<std::byte>& bytes, SectionEntry entry)
+{
+    entry.checksum = hashBytes(std::span(bytes).subspan(entry.offset, entry.storedBytes));
+    std::memcpy(bytes.data() + sizeof(TileHeader) + (entry.id - 1) * sizeof entry, &entry, sizeof entry);
+    sealTable(bytes);
+}
+
+constexpr SectionId kLinkSections[] = {SectionId::LinkColumns, SectionId::LinkFactors, SectionId::LinkMoments};
+
+TEST(PackFormat, CompactLinksComeBackNearly)
+{
+    const PackContent content = linkedPack();
+    PackContent alike = content; // All links but their last digits.
+    for (const bool zstd : {false, true}) {
+        const EncodedTile encoded = encodeTile(content.view(), zstd, true);
+        for (const SectionId id : kLinkSections) {
+            const SectionEntry entry = entryOf(encoded.bytes, id);
+            EXPECT_GE(entry.codec, u32(SectionCodec::Compact)) << u32(id);
+            EXPECT_LT(entry.storedBytes, entry.rawBytes) << u32(id);
+        }
+        const Result<LoadedTile> tile = readTile(encoded.bytes, "tile");
+        ASSERT_TRUE(tile.ok()) << tile.error().message;
+        ASSERT_EQ(tile->view.linkFactors.size(), content.linkFactors.size());
+        ASSERT_EQ(tile->view.linkMoments.size(), content.linkMoments.size());
+        for (size_t k = 0; k < content.linkFactors.size(); ++k) {
+            EXPECT_NEAR(tile->view.linkFactors[k], content.linkFactors[k], 2e-4f);
+            for (size_t m = 2 * k; m < 2 * k + 2; ++m)
+                EXPECT_NEAR(tile->view.linkMoments[m], content.linkMoments[m], content.linkFactors[k] / 60.0f);
+        }
+        alike.linkFactors.assign(tile->view.linkFactors.begin(), tile->view.linkFactors.end());
+        alike.linkMoments.assign(tile->view.linkMoments.begin(), tile->view.linkMoments.end());
+        expectSame(alike.view(), tile->view);
+        EXPECT_TRUE(validateTile(tile->view, content.index, tile->places).ok());
+    }
+}
+
+TEST(PackFormat, ATileTooSmallForTheCompactFormStaysAsItIs)
+{
+    PackContent content = samplePack();
+    content.linkMoments[0] = 0.01f;
+    content.linkFactors[0] = 0.0f; // A moment without a factor has no code.
+    const EncodedTile encoded = encodeTile(content.view(), false, true);
+    EXPECT_EQ(entryOf(encoded.bytes, SectionId::LinkColumns).codec, u32(SectionCodec::Compact));
+    EXPECT_EQ(entryOf(encoded.bytes, SectionId::LinkFactors).codec, u32(SectionCodec::Raw)) << "18 bytes against 16";
+    EXPECT_EQ(entryOf(encoded.bytes, SectionId::LinkMoments).codec, u32(SectionCodec::Raw));
+    const Result<LoadedTile> tile = readTile(encoded.bytes, "tile");
+    ASSERT_TRUE(tile.ok()) << tile.error().message;
+    expectSame(content.view(), tile->view);
+}
+
+TEST(PackFormat, ForgedCompactLinksAreRefusedOrSafe)
+{
+    const PackContent content = linkedPack();
+    const std::vector<std::byte> good = encodeTile(content.view(), false, true).bytes;
+    for (const SectionId id : kLinkSections) {
+        const SectionEntry entry = entryOf(good, id);
+        size_t refused = 0, accepted = 0;
+        for (u64 at = entry.offset; at < entry.offset + entry.storedBytes; ++at)
+            for (u32 value = 0; value < 256; ++value) {
+                std::vector<std::byte> bytes = good;
+                bytes[at] = std::byte(value);
+                sealSection(bytes, entry);
+                const Result<LoadedTile> tile = readTile(bytes, "tile");
+                ++(tile && validateTile(tile->view, content.index, tile->places) ? accepted : refused);
+            }
+        EXPECT_GT(refused, 0u) << u32(id);
+        EXPECT_GT(accepted, entry.storedBytes - 1) << u32(id) << ": the byte that was there before is right";
+    }
+}
+
+TEST(PackFormat, ForgedCompactTablesAreNamed)
+{
+    for (const bool zstd : {false, true}) {
+        PackContent content = linkedPack();
+        const std::vector<std::byte> good = encodeTile(content.view(), zstd, true).bytes;
+        const auto errorWith = [&](SectionId id, const auto& change) {
+            std::vector<std::byte> bytes = good;
+            SectionEntry entry = entryOf(good, id);
+            change(entry);
+            sealSection(bytes, entry);
+            const Result<LoadedTile> tile = readCopy(bytes);
+            return tile ? std::string() : tile.error().message;
+        };
+        for (const SectionId id : kLinkSections) {
+            for (const u64 size : {u64(1) << 40, u64(40)}) // One link more or a terabyte: nothing is allocated for it.
+                EXPECT_NE(errorWith(id, [&](SectionEntry& e) { e.rawBytes = size; }), "") << u32(id) << ' ' << size;
+            EXPECT_NE(errorWith(id, [](SectionEntry& e) { e.rawBytes += 2; }), "");
+            EXPECT_NE(errorWith(id, [](SectionEntry& e) { e.rawBytes = e.storedBytes; }).find("cannot hold"),
+                      std::string::npos);
+            EXPECT_NE(errorWith(id, [](SectionEntry& e) { e.codec = 4; }).find("unknown codec 4"), std::string::npos);
+            EXPECT_NE(errorWith(id, [](SectionEntry& e) { e.codec ^= 1; }), "");
+        }
+        EXPECT_NE(errorWith(SectionId::LinkRows, [](SectionEntry& e) { e.codec = 2; }).find("unknown codec 2"),
+                  std::string::npos);
+    }
+}
+
+TEST(PackFormat, RowsThatDoNotFitCompactLinksAreNamed)
+{
+    const std::vector<std::byte> good = encodeTile(linkedPack().view(), false, true).bytes;
+    const SectionEntry rows = entryOf(good, SectionId::LinkRows);
+    const auto errorWith = [&](u32 row, u32 value) {
+        std::vector<std::byte> bytes = good;
+        std::memcpy(bytes.data() + rows.offset + 4 * row, &value, 4);
+        sealSection(bytes, rows);
+        const Result<LoadedTile> tile = readCopy(bytes);
+        return tile ? std::string() : tile.error().message;
+    };
+    EXPECT_NE(errorWith(5, 8).find("section link columns: compact links: the link rows do not hold 9 links"),
+              std::string::npos);
+    EXPECT_NE(errorWith(0, 1).find("do not hold 9 links"), std::string::npos);
+    EXPECT_NE(errorWith(2, 0xFFFFFFFF).find("link row 3 starts before row 2"), std::string::npos);
+}
+
 TEST(PackFormat, SectionsAreAlignedAndInOrder)
 {
     const EncodedTile encoded = encodeTile(samplePack().view());
@@ -78,8 +209,7 @@ TEST(PackFormat, SectionsAreAlignedAndInOrder)
 
 TEST(PackFormat, EveryTruncatedPrefixIsRejected)
 {
-    for (const bool zstd : {false, true}) {
-        const EncodedTile encoded = encodeTile(samplePack().view(), zstd);
+    for (const EncodedTile& encoded : tilesInAllCodecs()) {
         for (size_t size = 0; size < encoded.bytes.size(); ++size) {
             std::vector<std::byte> prefix(encoded.bytes.begin(), encoded.bytes.begin() + std::ptrdiff_t(size));
             ASSERT_FALSE(readCopy(prefix).ok()) << size;
@@ -94,8 +224,8 @@ TEST(PackFormat, EveryTruncatedPrefixIsRejected)
 
 TEST(PackFormat, EveryFlippedByteIsRejected)
 {
-    for (const bool zstd : {false, true}) {
-        std::vector<std::byte> bytes = encodeTile(samplePack().view(), zstd).bytes;
+    for (const EncodedTile& encoded : tilesInAllCodecs()) {
+        std::vector<std::byte> bytes = encoded.bytes;
         for (size_t i = 0; i < bytes.size(); ++i) {
             bytes[i] ^= std::byte{0x20};
             ASSERT_FALSE(readCopy(bytes).ok()) << "byte " << i;
@@ -219,7 +349,7 @@ TEST(PackIndexText, TruncatedOrFlippedIsRejected)
 TEST(PackIndexText, AnotherVersionIsNamed)
 {
     std::string text = encodeIndex(samplePack().index, {1, 2});
-    text.replace(text.find("1\n"), 1, "9");
+    text.replace(text.find("2\n"), 1, "9");
     EXPECT_EQ(decodeIndex(text, "index").error().message,
               "index: byte 16: version 9 of the format, this program reads version 2; bake the pack again");
 }

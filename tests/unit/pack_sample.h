@@ -68,4 +68,15 @@ inline PackContent samplePack()
     return c;
 }
 
+/// The same with so many links that their compact form is the smaller one in all three sections.
+inline PackContent linkedPack()
+{
+    PackContent c = samplePack();
+    c.linkRows = {0, 3, 6, 9, 9, 9};
+    c.linkColumns = {1, 2, 3, 0, 2, 3, 0, 1, 3};
+    c.linkFactors = {0.01f, 0.1f, 0.05f, 0.02f, 0.2f, 0.001f, 0.15f, 0.25f, 0.3f};
+    c.linkMoments = {0, 0, 0, 0, 0.05f, 0, 0, 0, 0, 0, -0.0005f, 0, 0, 0, 0, 0, 0.01f, 0};
+    return c;
+}
+
 } // namespace helio::test

@@ -25,7 +25,7 @@ TEST(PackWriter, WrittenPackOpens)
     const TempFolder temp;
     for (const bool zstd : {false, true}) {
         const std::filesystem::path folder = temp / (zstd ? "packed" : "plain");
-        const Status written = writePack(samplePack(), folder, {zstd, {}});
+        const Result<LinkBytes> written = writePack(samplePack(), folder, {.zstd = zstd});
         ASSERT_TRUE(written.ok()) << written.error().message;
         const Result<Pack> pack = Pack::open(folder);
         ASSERT_TRUE(pack.ok()) << pack.error().message;
@@ -93,7 +93,7 @@ TEST(PackWriter, AnInterruptedWriteLeavesNothing)
     int needed = 0;
     {
         const TempFolder temp;
-        ASSERT_TRUE(writePack(content, temp / "p", {false, [&] { return ++needed, false; }}).ok());
+        ASSERT_TRUE(writePack(content, temp / "p", {.cancelled = [&] { return ++needed, false; }}).ok());
     }
     EXPECT_GT(needed, 20) << "table, index, most of the sections and the chunks of one of them";
     for (const bool replacing : {false, true}) {
@@ -104,7 +104,8 @@ TEST(PackWriter, AnInterruptedWriteLeavesNothing)
             }
             const std::string before = replacing ? textOf(temp / "p/tile-0000") : "";
             int calls = 0;
-            const Status written = writePack(content, temp / "p", {false, [&] { return ++calls > last; }});
+            const Result<LinkBytes> written =
+                writePack(content, temp / "p", {.cancelled = [&] { return ++calls > last; }});
             ASSERT_FALSE(written.ok());
             EXPECT_NE(written.error().message.find("interrupted"), std::string::npos);
             ASSERT_EQ(temp.entryCount(), replacing ? 1u : 0u) << "interrupted at " << last;

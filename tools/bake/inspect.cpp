@@ -6,6 +6,7 @@
 
 #include "city/format/pack.h"
 #include "city/format/sections.h"
+#include "city/pack/stats_text.h"
 
 namespace helio {
 namespace {
@@ -46,6 +47,7 @@ Status printInfo(const std::filesystem::path& folder)
     std::printf("  links       %zu, %.1f per patch, %s senders\n", tile.linkColumns.size(),
                 double(tile.linkColumns.size()) / double(pack->patchCount()),
                 tile.linkMoments.empty() ? "constant" : "linear");
+    std::printf("  link bytes  %s\n", linkBytesText(pack->linkBytes(), tile.linkColumns.size()).c_str());
     std::printf("  sky         %zu patches, %zu links\n", tile.skyPatches.size(), tile.skyColumns.size());
     std::printf("  drawn       %zu draws, %zu instances, %zu vertices, %zu indices\n", tile.draws.size(),
                 tile.instances.size(), tile.vertices.size(), tile.indices.size());

@@ -30,9 +30,9 @@ struct CommandLine
     std::string output, stats, pack, surfaces, explain;
     std::vector<std::string> attributes; ///< NAME=VALUE
     std::vector<double> bbox;            ///< west, south, east, north
-    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto";
-    std::string senders = "linear", receivers = "tree";
-    bool zstd = false;
+    std::string method = methodName(LinkMethod::Heliopolis), patch = "piece", front = "auto",
+                tree = treeShapeName(TreeShape::Grammar), senders = "linear", receivers = "tree";
+    bool zstd = false, compactLinks = false;
     FactorOptions factors;
     ExportOptions exporting;
     ReferenceOptions reference;
@@ -75,6 +75,12 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
                    "what exchanges light as one: piece, or bay = wall and opening of a bay together")
         ->check(CLI::IsMember({"piece", "bay"}))
         ->type_name("MODE")
+        ->capture_default_str();
+    app.add_option("--tree", line.tree,
+                   "levels above the patches: grammar = those of the rules; free = one balanced tree of rectangles a "
+                   "plane; faces = none (both to measure against)")
+        ->check(CLI::IsMember({"grammar", "free", "faces"}))
+        ->type_name("SHAPE")
         ->capture_default_str();
     app.add_flag("--tree-only", bake.treeOnly,
                  "derive the buildings and make their node tree, print statistics, and stop: no links, no pack");
@@ -144,6 +150,8 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->capture_default_str();
     app.add_option("--stats", line.stats, "JSON file for the statistics");
     app.add_flag("--zstd", line.zstd, "pack the sections with zstd: a smaller file that is not mapped but unpacked");
+    app.add_flag("--compact-links", line.compactLinks,
+                 "store links in a quarter of the bytes; adds less than 0.1 % to the error of the indirect light");
 }
 
 void addFactorOptions(CLI::App& command, FactorOptions& factors)
@@ -181,6 +189,8 @@ Status completeOptions(CommandLine& line)
     line.bake.light.leafReceivers = line.receivers == "patches";
     line.bake.import.keepFirstEdge = line.front == "first";
     line.bake.nodes.patch = line.patch == "bay" ? PatchMode::Bay : PatchMode::Piece;
+    for (const TreeShape shape : {TreeShape::Grammar, TreeShape::Free, TreeShape::Faces})
+        if (line.tree == treeShapeName(shape)) line.bake.nodes.tree = shape;
     return Nothing{};
 }
 
@@ -228,7 +238,7 @@ int runBake(CommandLine& line)
     if (line.output.empty()) return complain("-o PACK is missing: where shall the pack go? See --help", kBadInput);
     if (Status status = checkPackTarget(line.output); !status) return complain(status.error().message, kBadInput);
     ProgressLine progress;
-    const std::optional<BakeResult> result = bakeWithProgress(line, progress);
+    std::optional<BakeResult> result = bakeWithProgress(line, progress);
     if (!result) return kBadInput;
     progress.show("writing", 0.0);
     if (Status good = checkContent(result->content, line.output); !good) {
@@ -238,8 +248,11 @@ int runBake(CommandLine& line)
     const double peak = peakMemoryMiB();
     {
         const InterruptGuard guard;
-        Status written =
-            writePack(result->content, line.output, {line.zstd, [] { return InterruptGuard::caught() != 0; }});
+        const Result<LinkBytes> linkBytes =
+            writePack(result->content, line.output,
+                      {line.zstd, line.compactLinks, [] { return InterruptGuard::caught() != 0; }});
+        Status written = linkBytes ? Status(Nothing{}) : linkBytes.error();
+        if (linkBytes) result->stats.linkBytes = *linkBytes;
         if (written && !line.stats.empty() && InterruptGuard::caught() == 0)
             written = writeTextAtomically(line.stats, statsJson(result->stats, peak));
         progress.clear();

@@ -36,7 +36,7 @@ Result<std::filesystem::path> builtinPack(const std::filesystem::path& folder)
     std::cout << "Baking the built-in city into " << pack.string() << std::endl;
     const Result<BakeResult> baked = bake({});
     if (!baked) return baked.error();
-    if (const Status written = writePack(baked->content, pack); !written) return written.error();
+    if (const Result<LinkBytes> written = writePack(baked->content, pack); !written) return written.error();
     if (const Status written = writeTextAtomically(keyFile, key); !written) return written.error();
     return pack;
 }

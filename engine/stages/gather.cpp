@@ -19,7 +19,7 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
         const auto sky = pass.read(direct.sky, Use::ComputeRead);
         const auto indirect = pass.read(light.irradiance, Use::ComputeRead);
         const LightRefs out{pass.write(light.b0, Use::ComputeWrite), pass.write(light.radiosity, Use::ComputeWrite),
-                            light.irradiance};
+                            light.irradiance, light.slopes};
         const gpu::FirstLightParams params{tile.patchCount, emission ? 1.0f : 0.0f, warm ? 1.0f : 0.0f, 0};
         pass.record([=](PassContext& ctx) {
             ctx.dispatch(shaders::kFirstLightComp,
@@ -30,8 +30,7 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
         });
         return out;
     });
-    light.radiosity = addPull(graph, tile, light.radiosity);
-    return light;
+    return addPullLight(graph, tile, light);
 }
 
 Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values, const std::string& name)
@@ -45,6 +44,34 @@ Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
                 ctx.dispatch(shaders::kPullComp,
                              {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
                               storage(gpu::kPullValues, out)},
+                             gpu::LevelParams{level.first, level.count, patchCount},
+                             groupsFor(level.count, gpu::kSolveGroup));
+                ctx.barrier();
+            }
+        });
+        return out;
+    });
+}
+
+LightRefs addPullLight(FrameGraph& graph, const TileTables& tile, LightRefs light)
+{
+    if (!tile.linear) {
+        light.radiosity = addPull(graph, tile, light.radiosity);
+        return light;
+    }
+    return graph.addPass("pull", [&](PassBuilder& pass) {
+        const auto rows = pass.read(pass.import(tile.childRows), Use::ComputeRead);
+        const auto children = pass.read(pass.import(tile.children), Use::ComputeRead);
+        const auto childSlopes = pass.read(pass.import(tile.childSlopes), Use::ComputeRead);
+        LightRefs out = light;
+        out.radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
+        out.slopes = pass.write(light.slopes, Use::ComputeReadWrite);
+        pass.record([=, levels = tile.levels, patchCount = tile.patchCount](PassContext& ctx) {
+            for (const TreeLevel& level : levels) {
+                ctx.dispatch(shaders::kPullLinearComp,
+                             {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
+                              storage(gpu::kPullChildSlopes, childSlopes), storage(gpu::kPullValues, out.radiosity),
+                              storage(gpu::kPullSlopes, out.slopes)},
                              gpu::LevelParams{level.first, level.count, patchCount},
                              groupsFor(level.count, gpu::kSolveGroup));
                 ctx.barrier();
@@ -74,32 +101,40 @@ Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
     });
 }
 
-Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity, Ref<Buffer> irradiance)
+LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light)
 {
     return graph.addPass("gather", [&](PassBuilder& pass) {
         struct Page
         {
-            Ref<Buffer> pairs;
+            Ref<Buffer> records;
             gpu::GatherParams params;
         };
         std::vector<Page> pages;
         for (const LinkPageBuffer& links : tile.links)
-            pages.push_back({pass.read(pass.import(links.pairs), Use::ComputeRead),
-                             {links.page.rowFirst, links.page.rowCount, links.page.pairFirst}});
+            pages.push_back({pass.read(pass.import(links.records), Use::ComputeRead),
+                             {links.page.rowFirst, links.page.rowCount, links.page.recordFirst, tile.patchCount}});
         const auto rows = pass.read(pass.import(tile.linkRows), Use::ComputeRead);
-        const auto from = pass.read(radiosity, Use::ComputeRead);
-        const auto to = pass.write(irradiance, Use::ComputeWrite);
-        const ShaderCode& shader = tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp;
-        pass.record([=, &shader](PassContext& ctx) {
-            for (const Page& page : pages)
-                ctx.dispatch(shader,
-                             {storage(gpu::kGatherRows, rows),
-                              texels(gpu::kGatherLinks, page.pairs, VK_FORMAT_R32G32B32A32_UINT),
-                              texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
-                              storage(gpu::kGatherIrradiance, to)},
-                             page.params, groupsFor(page.params.rowCount, gpu::kSolveGroup));
+        const auto from = pass.read(light.radiosity, Use::ComputeRead);
+        LightRefs out = light;
+        if (tile.linear) out.slopes = pass.read(light.slopes, Use::ComputeRead);
+        out.irradiance = pass.write(light.irradiance, Use::ComputeWrite);
+        const ShaderCode& shader =
+            tile.linear ? (tile.texelLinks ? shaders::kGatherTexelLinearComp : shaders::kGatherLinearComp)
+                        : (tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp);
+        pass.record([=, &shader, linear = tile.linear](PassContext& ctx) {
+            for (const Page& page : pages) {
+                std::vector<Binding> bindings{
+                    storage(gpu::kGatherRows, rows),
+                    texels(gpu::kGatherLinks, page.records, VK_FORMAT_R32G32B32A32_UINT),
+                    texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
+                    storage(gpu::kGatherIrradiance, out.irradiance)};
+                if (linear)
+                    bindings.push_back(texels(gpu::kGatherSlopes, out.slopes, VK_FORMAT_R32G32B32A32_SFLOAT));
+                ctx.dispatchBytes(shader, bindings, std::as_bytes(std::span(&page.params, 1)),
+                                  groupsFor(page.params.rowCount, gpu::kSolveGroup), {});
+            }
         });
-        return to;
+        return out;
     });
 }
 
@@ -112,7 +147,7 @@ u32 updateGroups(const TileTables& tile)
 UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
                     Ref<Buffer> residual)
 {
-    light.irradiance = addGather(graph, tile, light.radiosity, light.irradiance);
+    light = addGather(graph, tile, light);
     light.irradiance = addPush(graph, tile, light.irradiance);
     const u32 partialCount = updateGroups(tile);
     const auto updated = graph.addPass("update", [&](PassBuilder& pass) {
@@ -130,7 +165,8 @@ UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, 
         });
         return std::pair(radiosity, sums);
     });
-    light.radiosity = addPull(graph, tile, updated.first);
+    light.radiosity = updated.first;
+    light = addPullLight(graph, tile, light);
     const auto result = graph.addPass("residual", [&](PassBuilder& pass) {
         const auto from = pass.read(updated.second, Use::ComputeRead);
         const auto to = pass.write(residual, Use::ComputeWrite);

@@ -19,6 +19,7 @@ struct LightRefs
     Ref<Buffer> b0;         ///< a patch: emission + rho (E_sun + E_sky)
     Ref<Buffer> radiosity;  ///< a node: B
     Ref<Buffer> irradiance; ///< a node: what arrives over links; at the patches E_indirect
+    Ref<Buffer> slopes;     ///< linear senders only: two an inner node, of B in the node's slope coordinates
 };
 
 /// Before the sweeps: B0, and B = B0 + rho E_indirect with the E_indirect of the last solve (warm) or none (cold),
@@ -29,11 +30,12 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
 /// X_parent = sum A_child X_child / A_parent, level by level, in place (vec4 a node).
 [[nodiscard]] Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values,
                                   const std::string& name = "pull");
+/// addPull of the radiosity, with linear senders of its slopes too.
+[[nodiscard]] LightRefs addPullLight(FrameGraph& graph, const TileTables& tile, LightRefs light);
 /// E_child += E_parent, level by level, in place (vec4 a node).
 [[nodiscard]] Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values);
-/// E_i = sum F_ij B_j over the links of row i, at every node.
-[[nodiscard]] Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity,
-                                    Ref<Buffer> irradiance);
+/// E_i = sum F_ij B_j over the links of row i, at every node; with linear senders sum F_ij B_j + M_ij . slope_j.
+[[nodiscard]] LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light);
 
 struct UpdateRefs
 {

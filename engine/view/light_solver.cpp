@@ -7,7 +7,6 @@
 
 #include "engine/gpu/transfer.h"
 #include "engine/graph/pass_context.h"
-#include "engine/stages/gather.h"
 #include "engine/stages/histogram.h"
 #include "engine/stages/sky_energy.h"
 #include "engine/stages/sun_energy.h"
@@ -57,6 +56,7 @@ LightSolver::LightSolver(Context& context, const TileTables& tile, const Rendere
       sky_(makeZeros(context, "E_sky", tile.patchCount)), b0_(makeZeros(context, "B0", tile.patchCount)),
       radiosity_(makeZeros(context, "B", tile.nodeCount)),
       irradiance_(makeZeros(context, "E_indirect", tile.nodeCount)),
+      slopes_(makeZeros(context, "slopes of B", tile.linear ? 2 * u64(tile.innerCount()) : 1)),
       partials_(context, {"residual parts", u64(updateGroups(tile)) * sizeof(gpu::ResidualRecord)}),
       residual_(context, {"residual", sizeof(gpu::ResidualRecord)}),
       residualHost_(context, {"residual on the host", sizeof(gpu::ResidualRecord), Memory::Readback}),
@@ -155,12 +155,18 @@ void LightSolver::solveSky(const LightState& light)
     run(graph);
 }
 
+LightRefs LightSolver::lightIn(FrameGraph& graph) const
+{
+    LightRefs light{graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_), {}};
+    if (tile_.linear) light.slopes = graph.import(slopes_);
+    return light;
+}
+
 void LightSolver::sweep(const LightState& light, bool warm)
 {
     {
         FrameGraph graph("first light");
-        (void)addFirstLight(graph, tile_, {graph.import(sun_), graph.import(sky_)},
-                            {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)}, light.emission,
+        (void)addFirstLight(graph, tile_, {graph.import(sun_), graph.import(sky_)}, lightIn(graph), light.emission,
                             warm);
         run(graph);
     }
@@ -170,8 +176,7 @@ void LightSolver::sweep(const LightState& light, bool warm)
     for (report_.sweeps = 0; report_.sweeps < limit;) {
         FrameGraph graph("sweep");
         const UpdateRefs result =
-            addSweep(graph, tile_, {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)},
-                     graph.import(partials_), graph.import(residual_));
+            addSweep(graph, tile_, lightIn(graph), graph.import(partials_), graph.import(residual_));
         addReadback(graph, result.residual, residualHost_);
         run(graph);
         ++report_.sweeps;

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/recorder.h"
 #include "engine/stages/draw_list.h"
+#include "engine/stages/gather.h"
 #include "engine/stages/sun_view.h"
 #include "engine/view/light_state.h"
 #include "engine/view/renderer.h"
@@ -35,6 +36,7 @@ private:
     void sweep(const LightState& light, bool warm);
     void fitImages();
     void run(FrameGraph& graph);
+    LightRefs lightIn(FrameGraph& graph) const;
 
     Context& context_;
     const TileTables& tile_;
@@ -46,7 +48,7 @@ private:
 
     SunView sunView_;
     std::optional<Image> ids_, shadow_;
-    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, partials_, residual_;
+    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, slopes_, partials_, residual_;
     Buffer residualHost_, tallyHost_;
 };
 

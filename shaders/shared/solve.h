@@ -25,6 +25,16 @@ struct LinkPairRecord {
 };
 HELIO_SIZE(LinkPairRecord, 16);
 
+// Linear senders: a row goes on, after the pairs of its links to patches, with a record like this for each link to an inner
+// node, in the same array. E += factor B + momentX slopeX + momentY slopeY.
+struct LinearLinkRecord {
+    uint column;           // sender, an inner node
+    float factor;
+    float momentX;
+    float momentY;
+};
+HELIO_SIZE(LinearLinkRecord, 16);
+
 // sky_energy: E_sky of each patch
 HELIO_CONSTANT uint kSkyRows = 0u;
 HELIO_CONSTANT uint kSkyColumns = 1u;
@@ -55,6 +65,9 @@ HELIO_SIZE(FirstLightParams, 16);
 HELIO_CONSTANT uint kPullRows = 0u;      // inner nodes: first child, count
 HELIO_CONSTANT uint kPullChildren = 1u;
 HELIO_CONSTANT uint kPullValues = 2u;
+// pull with linear senders: slope_parent = sum weight (offset_child X_child + T_child slope_child)
+HELIO_CONSTANT uint kPullChildSlopes = 3u; // ChildSlopeRecord, parallel to the children
+HELIO_CONSTANT uint kPullSlopes = 4u;      // vec4 pairs, an inner node
 // push: E_child += E_parent, one dispatch a level, downwards
 HELIO_CONSTANT uint kPushParents = 0u;
 HELIO_CONSTANT uint kPushValues = 1u;
@@ -66,16 +79,18 @@ struct LevelParams {       // push constant
 HELIO_SIZE(LevelParams, 12);
 
 // gather: E_i = sum factor B_column over the links of row i
-HELIO_CONSTANT uint kGatherRows = 0u;    // in pairs, nodeCount + 1
-HELIO_CONSTANT uint kGatherLinks = 1u;   // LinkPairRecord, from pair `pairFirst` on
+HELIO_CONSTANT uint kGatherRows = 0u;    // in records: nodeCount + 1; linear senders: 2 nodeCount + 1
+HELIO_CONSTANT uint kGatherLinks = 1u;   // LinkPairRecord (and LinearLinkRecord), from record `recordFirst` on
 HELIO_CONSTANT uint kGatherRadiosity = 2u;
 HELIO_CONSTANT uint kGatherIrradiance = 3u;
+HELIO_CONSTANT uint kGatherSlopes = 4u;  // linear senders: vec4 pairs, an inner node
 struct GatherParams {      // push constant
     uint rowFirst;
     uint rowCount;
-    uint pairFirst;        // pair that is element 0 of the bound links
+    uint recordFirst;      // record that is element 0 of the bound links
+    uint patchCount;
 };
-HELIO_SIZE(GatherParams, 12);
+HELIO_SIZE(GatherParams, 16);
 
 // update: B = B0 + rho E at the patches, and the partial sums of the residual
 HELIO_CONSTANT uint kUpdateRun = 16u;    // patches a lane

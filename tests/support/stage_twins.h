@@ -13,15 +13,23 @@ namespace helio::twin {
 /// Texels of each id below patchCount.
 std::vector<u32> countIds(std::span<const u32> ids, u32 patchCount);
 
-/// One row's sum of F B, and of |F B|.
+/// Radiosity of every node, and its slopes with linear senders (city/light/linear_senders.h; zero at the patches).
+struct NodeLight
+{
+    std::vector<glm::dvec4> mean, slopeX, slopeY;
+};
+
+/// One row's sum of F B + M . slope, and of the absolute values of its terms.
 struct RowSum
 {
     glm::dvec4 sum{0.0}, absolute{0.0};
 };
-std::vector<RowSum> gather(const TileView& tile, std::span<const glm::vec4> radiosity);
+std::vector<RowSum> gather(const TileView& tile, const NodeLight& light);
 
 /// Area-weighted means of the leaves' values at every node. values: a patch each.
 std::vector<glm::dvec4> pullUp(const TileView& tile, std::span<const glm::dvec4> values);
+/// The same with the slopes that the patches' values have over each inner node; none with constant senders.
+NodeLight pullLight(const TileView& tile, std::span<const glm::dvec4> values);
 /// At every node, the sum of its own value and of those of all its ancestors.
 std::vector<glm::dvec4> pushDown(const TileView& tile, std::span<const glm::dvec4> values);
 

@@ -145,7 +145,7 @@ u32 updateGroups(const TileTables& tile)
 }
 
 UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
-                    Ref<Buffer> residual)
+                    Ref<Buffer> residual, const std::optional<ChebyshevRefs>& chebyshev)
 {
     light = addGather(graph, tile, light);
     light.irradiance = addPush(graph, tile, light.irradiance);
@@ -156,12 +156,18 @@ UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, 
         const auto irradiance = pass.read(light.irradiance, Use::ComputeRead);
         const auto radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
         const auto sums = pass.write(partials, Use::ComputeWrite);
-        pass.record([=, params = gpu::UpdateParams{tile.patchCount}](PassContext& ctx) {
-            ctx.dispatch(shaders::kUpdateComp,
-                         {storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
-                          storage(gpu::kUpdateIrradiance, irradiance), storage(gpu::kUpdateRadiosity, radiosity),
-                          storage(gpu::kUpdatePartials, sums)},
-                         params, groupsFor(u64(partialCount) * gpu::kSolveGroup, gpu::kSolveGroup));
+        const Ref<Buffer> before =
+            chebyshev ? pass.write(chebyshev->before, Use::ComputeReadWrite) : Ref<Buffer>{};
+        const gpu::UpdateParams params{chebyshev ? chebyshev->weight : glm::vec4(1.0f), tile.patchCount};
+        pass.record([=, accelerated = chebyshev.has_value()](PassContext& ctx) {
+            std::vector<Binding> bindings{
+                storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
+                storage(gpu::kUpdateIrradiance, irradiance), storage(gpu::kUpdateRadiosity, radiosity),
+                storage(gpu::kUpdatePartials, sums)};
+            if (accelerated) bindings.push_back(storage(gpu::kUpdateBefore, before));
+            ctx.dispatchBytes(accelerated ? shaders::kUpdateChebyshevComp : shaders::kUpdateComp, bindings,
+                              std::as_bytes(std::span(&params, 1)),
+                              groupsFor(u64(partialCount) * gpu::kSolveGroup, gpu::kSolveGroup), {});
         });
         return std::pair(radiosity, sums);
     });
@@ -201,7 +207,7 @@ double residualOf(const gpu::ResidualRecord& sums)
     return worst;
 }
 
-double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums)
+double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums, const glm::dvec4& radius)
 {
     constexpr double kSlowest = 0.9999;
     double worst = 0.0;
@@ -209,10 +215,20 @@ double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRe
     for (int c = 0; c < 4; ++c) {
         if (!(sums.change[c] > 0.0f && sums.scale[c] > 0.0f)) continue;
         const double residual = std::sqrt(double(sums.change[c]) / double(sums.scale[c]));
-        const double q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
+        double q = radius[c];
+        if (!(q > 0.0)) q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
         worst = std::max(worst, residual * q / (1.0 - std::min(q, kSlowest)));
     }
     return worst;
+}
+
+glm::dvec4 errorBoundOf(const gpu::ResidualRecord& sums, const glm::dvec4& contraction)
+{
+    glm::dvec4 bound(std::numeric_limits<double>::infinity());
+    if (!isFinite(sums)) return bound;
+    for (int c = 0; c < 4; ++c)
+        if (contraction[c] < 1.0) bound[c] = double(sums.largest[c]) / (1.0 - contraction[c]);
+    return bound;
 }
 
 } // namespace helio

@@ -62,6 +62,7 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
         t.emits = t.emits || patch.emission != glm::vec4(0.0f);
     }
     t.linear = !tile.linkMoments.empty();
+    t.contraction = contractionOf(tile);
     auto tree = buildTreeLevels(tile.nodes, tile.children, t.patchCount, tile.childSlopes);
     if (!tree) return tree.error();
     t.texelLinks = texelsServe(context, tile);

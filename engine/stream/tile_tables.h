@@ -6,6 +6,7 @@
 #include "city/format/pack.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/resources.h"
+#include "engine/stream/contraction.h"
 #include "engine/stream/draw_chunks.h"
 #include "engine/stream/link_packing.h"
 #include "engine/stream/tree_levels.h"
@@ -36,6 +37,7 @@ struct TileTables
     bool linear = false; ///< linear senders: links have moments, inner nodes have slopes
     Buffer linkRows;     ///< see PackedLinks::rows
     std::vector<LinkPageBuffer> links;
+    Contraction contraction;
     bool texelLinks = false; ///< links and radiosity fit texel buffers: the faster gather
 
     std::vector<gpu::SkyPatchRecord> skyPatches;

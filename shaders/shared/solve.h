@@ -92,25 +92,29 @@ struct GatherParams {      // push constant
 };
 HELIO_SIZE(GatherParams, 16);
 
-// update: B = B0 + rho E at the patches, and the partial sums of the residual
+// update: B = B0 + rho E at the patches, and the partial sums of the residual. Chebyshev: B = w (B0 + rho E) + (1 - w)
+// B_before, with B_before the radiosity before the last sweep
 HELIO_CONSTANT uint kUpdateRun = 16u;    // patches a lane
 HELIO_CONSTANT uint kUpdatePatches = 0u;
 HELIO_CONSTANT uint kUpdateB0 = 1u;
 HELIO_CONSTANT uint kUpdateIrradiance = 2u;
 HELIO_CONSTANT uint kUpdateRadiosity = 3u;
 HELIO_CONSTANT uint kUpdatePartials = 4u;
+HELIO_CONSTANT uint kUpdateBefore = 5u;  // Chebyshev: patches
 struct UpdateParams {      // push constant
+    vec4 weight;           // Chebyshev: w, >= 1
     uint patchCount;
 };
-HELIO_SIZE(UpdateParams, 4);
+HELIO_SIZE(UpdateParams, 20);
 
-// Area-weighted sums over patches, per channel. Also the partial sums of one group.
+// Area-weighted sums over patches, per channel, with B_new = B0 + rho E. Also the partial sums of one group.
 struct ResidualRecord {
     vec4 change;           // sum A (B_new - B)^2: the defect of B
     vec4 scale;            // sum A (B_new - B0)^2
     vec4 radiosity;        // sum A B_new, W
+    vec4 largest;          // largest |B_new - B| of a patch, W/m2
 };
-HELIO_SIZE(ResidualRecord, 48);
+HELIO_SIZE(ResidualRecord, 64);
 
 // residual: the sum of the partials, in a fixed order
 HELIO_CONSTANT uint kResidualGroup = 256u;

@@ -265,7 +265,9 @@ const SolveReport& LightSolver::solve(const LightState& light)
         if (fresh || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni) solveSun(light);
         if (fresh || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance) solveSky(light);
     }
-    sweep(light, solved_.has_value() && options_.solve.warmStart);
+    // Without light the solution is 0, which no residual relative to itself leads to.
+    const bool dark = !light.given && !light.sunUp() && light.dhi <= 0.0 && !(light.emission && tile_.emits);
+    sweep(light, solved_.has_value() && options_.solve.warmStart && !dark);
     solved_ = light;
     solvedWith_ = options_.solve;
     return report_;

@@ -8,6 +8,7 @@
 #include "city/base/hash.h"
 #include "engine/gpu/transfer.h"
 #include "engine/graph/pass_context.h"
+#include "engine/stages/acceleration.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage_twins.h"
 #include "tests/support/tile_builder.h"
@@ -328,7 +329,8 @@ protected:
         gpu::ResidualRecord sums{};
     };
 
-    Result sweep(const TileView& view, const std::vector<glm::vec4>& sun, const std::vector<glm::vec4>& sky, u32 sweeps)
+    Result sweep(const TileView& view, const std::vector<glm::vec4>& sun, const std::vector<glm::vec4>& sky, u32 sweeps,
+                 const glm::dvec4& radius = glm::dvec4(0.0))
     {
         const TileTables tile = upload(view, true);
         const std::vector<glm::vec4> zeros(tile.nodeCount, glm::vec4(0.0f));
@@ -343,7 +345,17 @@ protected:
             graph, tile, {graph.import(eSun), graph.import(eSky)},
             {graph.import(b0), graph.import(radiosity), graph.import(irradiance), graph.import(slopes)}, true, false);
         UpdateRefs out{light, graph.import(residual)};
-        for (u32 k = 0; k < sweeps; ++k) out = addSweep(graph, tile, out.light, graph.import(partials), out.residual);
+        // What lies in `before` at first is nobody's light and must not matter.
+        const Buffer before = makeBuffer(
+            context(), "B before",
+            std::vector<glm::vec4>(tile.patchCount, glm::vec4(std::numeric_limits<float>::quiet_NaN())));
+        glm::dvec4 weight(1.0);
+        for (u32 k = 0; k < sweeps; ++k) {
+            weight = chebyshevWeight(k, weight, radius);
+            std::optional<ChebyshevRefs> chebyshev;
+            if (radius != glm::dvec4(0.0)) chebyshev = {graph.import(before), glm::vec4(weight)};
+            out = addSweep(graph, tile, out.light, graph.import(partials), out.residual, chebyshev);
+        }
         execute(graph);
         Result result{
             downloadItems<glm::vec4>(context(), irradiance), downloadItems<glm::vec4>(context(), radiosity), {}};
@@ -393,10 +405,38 @@ TEST_F(SweepTest, AgreesWithTheTwin)
                 }
             // The change of a late sweep is a small difference of rounded values: 1e-4 of it is far from a wrong norm.
             EXPECT_NEAR(residualOf(result.sums), expected.residual, 1e-4 * expected.residual);
+            for (int c = 0; c < 4; ++c)
+                EXPECT_NEAR(double(result.sums.largest[c]), expected.largest[c], 1e-3 * expected.largest[c]);
             double mean = 0.0;
             for (u32 i = 0; i < 3000; ++i) mean += double(view.patches[i].area) * expected.radiosity[i].w;
             EXPECT_NEAR(double(result.sums.radiosity.w), mean, 1e-5 * mean);
         }
+    }
+}
+
+TEST_F(SweepTest, ChebyshevAgreesWithTheTwin)
+{
+    // Two channels are accelerated, two are not.
+    TileBuilder b = makeLinked(3000, true);
+    const TileView view = b.view();
+    const auto sun = randomLight(3000, 11), sky = randomLight(3000, 12);
+    std::vector<glm::dvec4> b0;
+    for (u32 i = 0; i < 3000; ++i)
+        b0.push_back(glm::dvec4(view.patches[i].emission) +
+                     glm::dvec4(view.patches[i].rho) * (glm::dvec4(sun[i]) + glm::dvec4(sky[i])));
+    const glm::dvec4 radius(0.9, 0.0, 0.6, 0.0);
+    for (const u32 sweeps : {1u, 2u, 5u}) {
+        const twin::Solution expected = twin::solve(view, b0, sweeps, radius), plain = twin::solve(view, b0, sweeps);
+        const Result result = sweep(view, sun, sky, sweeps, radius);
+        double apart = 0.0;
+        for (u32 i = 0; i < 3000; ++i)
+            for (int c = 0; c < 4; ++c) {
+                // The weights are below 2: the terms are not all positive, but their sizes add up to three times B.
+                EXPECT_NEAR(result.radiosity[i][c], expected.radiosity[i][c],
+                            3.0 * sweeps * 60 * kUnit * expected.radiosity[i][c]);
+                apart = std::max(apart, std::abs(plain.radiosity[i][c] - expected.radiosity[i][c]));
+            }
+        EXPECT_EQ(apart > 1.0, sweeps > 1) << "the first sweep is plain, the others are not";
     }
 }
 

@@ -121,22 +121,49 @@ SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec
     return out;
 }
 
-Solution solve(const TileView& tile, std::span<const glm::dvec4> b0, u32 sweeps)
+namespace {
+
+/// T_n(x) of x >= 1.
+double chebyshev(u32 n, double x)
+{
+    return std::cosh(n * std::acosh(x));
+}
+
+/// Weight of sweep k by the definition: 2 T_k(1/m) / (m T_(k+1)(1/m)); the first one is plain.
+glm::dvec4 weightOf(u32 sweep, const glm::dvec4& radius)
+{
+    glm::dvec4 weight(1.0);
+    for (int c = 0; c < 4; ++c)
+        if (sweep > 0 && radius[c] > 0.0)
+            weight[c] =
+                2.0 / radius[c] * chebyshev(sweep, 1.0 / radius[c]) / chebyshev(sweep + 1, 1.0 / radius[c]);
+    return weight;
+}
+
+} // namespace
+
+Solution solve(const TileView& tile, std::span<const glm::dvec4> b0, u32 sweeps, const glm::dvec4& radius)
 {
     Solution s;
     s.radiosity.assign(b0.begin(), b0.end());
+    std::vector<glm::dvec4> before = s.radiosity;
     for (u32 sweep = 0; sweep < sweeps; ++sweep) {
         std::vector<glm::dvec4> own;
         for (const RowSum& row : gather(tile, pullLight(tile, s.radiosity))) own.push_back(row.sum);
         s.indirect = pushDown(tile, own);
         s.indirect.resize(b0.size());
+        const glm::dvec4 weight = weightOf(sweep, radius);
         glm::dvec4 change(0.0), scale(0.0);
+        s.largest = glm::dvec4(0.0);
         for (size_t i = 0; i < b0.size(); ++i) {
             const glm::dvec4 added = glm::dvec4(tile.patches[i].rho) * s.indirect[i];
             const glm::dvec4 step = b0[i] + added - s.radiosity[i];
             change += double(tile.patches[i].area) * step * step;
             scale += double(tile.patches[i].area) * added * added;
-            s.radiosity[i] = b0[i] + added;
+            s.largest = glm::max(s.largest, glm::abs(step));
+            const glm::dvec4 next = weight * (b0[i] + added) + (1.0 - weight) * before[i];
+            before[i] = s.radiosity[i];
+            s.radiosity[i] = next;
         }
         s.residual = 0.0;
         for (int c = 0; c < 4; ++c)

@@ -42,12 +42,15 @@ struct SunEnergy
 SunEnergy sunEnergy(const TileView& tile, std::span<const u32> counts, glm::dvec3 towardsSun, double dni,
                     double texelArea, double minSamples, double minCosine);
 
-/// Jacobi sweeps B = B0 + rho F B from B = B0. Residual: see residualOf in engine/stages/gather.h.
+/// Jacobi sweeps B = B0 + rho F B from B = B0; or, in the channels of a radius > 0, those of Chebyshev's semi-iteration
+/// for eigenvalues of [-radius, radius]. Residual: see residualOf in engine/stages/gather.h.
 struct Solution
 {
     std::vector<glm::dvec4> indirect, radiosity; ///< a patch each
     double residual = 0.0;
+    glm::dvec4 largest{0.0}; ///< |B0 + rho F B - B| of the last sweep, of the patch where it is largest
 };
-Solution solve(const TileView& tile, std::span<const glm::dvec4> b0, u32 sweeps);
+Solution solve(const TileView& tile, std::span<const glm::dvec4> b0, u32 sweeps,
+               const glm::dvec4& radius = glm::dvec4(0.0));
 
 } // namespace helio::twin

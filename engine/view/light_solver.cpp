@@ -30,6 +30,7 @@ constexpr const char* kHistogramStage = "2 histogram";
 constexpr const char* kSunStage = "2 sun energy";
 constexpr const char* kSkyStage = "  sky energy";
 constexpr const char* kGatherStage = "3 gather";
+constexpr std::array kStageOrder{kRasterStage, kHistogramStage, kSunStage, kSkyStage, kGatherStage};
 
 /// Sweeps of the power iteration that estimates the eigenvalues of a sweep, and the contraction number from which on it
 /// is worth the while.
@@ -110,12 +111,16 @@ void LightSolver::run(FrameGraph& graph, const char* other)
     execute(graph, true);
     for (const PassTime& time : recorder_.times()) {
         const std::string stage = stageOf(time.name, other);
-        const auto found = std::find_if(report_.stages.begin(), report_.stages.end(),
-                                        [&](const PassTime& t) { return t.name == stage; });
-        if (found != report_.stages.end())
-            found->milliseconds += time.milliseconds;
+        // In the order of the stages, whichever pass came first.
+        const auto rank = [](const std::string& name) {
+            return std::find(kStageOrder.begin(), kStageOrder.end(), name) - kStageOrder.begin();
+        };
+        const auto place = std::find_if(report_.stages.begin(), report_.stages.end(),
+                                        [&](const PassTime& t) { return rank(t.name) >= rank(stage); });
+        if (place != report_.stages.end() && place->name == stage)
+            place->milliseconds += time.milliseconds;
         else
-            report_.stages.push_back({stage, time.milliseconds});
+            report_.stages.insert(place, {stage, time.milliseconds});
     }
 }
 

@@ -113,6 +113,7 @@ LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light)
         for (const LinkPageBuffer& links : tile.links)
             pages.push_back({pass.read(pass.import(links.records), Use::ComputeRead),
                              {links.page.rowFirst, links.page.rowCount, links.page.recordFirst, tile.patchCount}});
+        const auto order = pass.read(pass.import(tile.linkOrder), Use::ComputeRead);
         const auto rows = pass.read(pass.import(tile.linkRows), Use::ComputeRead);
         const auto from = pass.read(light.radiosity, Use::ComputeRead);
         LightRefs out = light;
@@ -124,7 +125,7 @@ LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light)
         pass.record([=, &shader, linear = tile.linear](PassContext& ctx) {
             for (const Page& page : pages) {
                 std::vector<Binding> bindings{
-                    storage(gpu::kGatherRows, rows),
+                    storage(gpu::kGatherOrder, order), storage(gpu::kGatherRows, rows),
                     texels(gpu::kGatherLinks, page.records, VK_FORMAT_R32G32B32A32_UINT),
                     texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
                     storage(gpu::kGatherIrradiance, out.irradiance)};

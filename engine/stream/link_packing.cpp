@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/stream/link_packing.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace helio {
@@ -25,6 +26,12 @@ template <class Take> void appendPairs(const LinkRows& links, u32 row, Take&& ta
     }
 }
 
+/// Fetches of a row: three a pair, and four a link with moments.
+u64 costOf(const RowRecords& row)
+{
+    return 3ull * row.pairs + 4ull * (row.all - row.pairs);
+}
+
 } // namespace
 
 RowRecords recordsOfRow(const LinkRows& links, u32 row)
@@ -45,36 +52,45 @@ Result<PackedLinks> packLinks(const LinkRows& links, u64 maxRecordsPerPage)
     HELIO_CHECK(moments.empty() || moments.size() == 2 * columns.size(), moments.size(), " moments for ",
                 columns.size(), " links");
     const bool linear = links.linear();
+    PackedLinks packed;
+    std::vector<RowRecords> sizes;
     u64 total = 0;
-    for (u32 i = 0; i < links.rowCount(); ++i) total += recordsOfRow(links, i).all;
+    for (u32 i = 0; i < links.rowCount(); ++i) {
+        sizes.push_back(recordsOfRow(links, i));
+        total += sizes[i].all;
+        if (sizes[i].all > maxRecordsPerPage)
+            return Error{concat("node ", i, " has ", rows[i + 1] - rows[i], " links; this device reads at most ",
+                                (linear ? 1 : 2) * maxRecordsPerPage, " from one buffer")};
+        packed.order.push_back(i);
+    }
     if (total > 0xFFFFFFFFull)
         return Error{
             concat("the tile has ", columns.size(), " links, more than a device can index; bake smaller tiles")};
+    for (u32 first = 0; first < links.rowCount(); first += kRowBlock) {
+        const auto begin = packed.order.begin() + first;
+        std::stable_sort(begin, begin + std::min(kRowBlock, links.rowCount() - first),
+                         [&](u32 a, u32 b) { return costOf(sizes[a]) > costOf(sizes[b]); });
+    }
 
-    PackedLinks packed;
     packed.rows.reserve(linear ? 2 * rows.size() - 1 : rows.size());
     packed.records.reserve(total);
     LinkPage page;
-    for (u32 i = 0; i < links.rowCount(); ++i) {
-        const u32 length = rows[i + 1] - rows[i];
-        const RowRecords size = recordsOfRow(links, i);
-        if (size.all > maxRecordsPerPage)
-            return Error{concat("node ", i, " has ", length, " links; this device reads at most ",
-                                (linear ? 1 : 2) * maxRecordsPerPage, " from one buffer")};
-        if (u64(page.recordCount) + size.all > maxRecordsPerPage) {
+    for (u32 k = 0; k < packed.order.size(); ++k) {
+        const u32 i = packed.order[k];
+        if (u64(page.recordCount) + sizes[i].all > maxRecordsPerPage) {
             packed.pages.push_back(page);
-            page = {i, 0, u32(packed.records.size()), 0};
+            page = {k, 0, u32(packed.records.size()), 0};
         }
         ++page.rowCount;
-        page.recordCount += size.all;
+        page.recordCount += sizes[i].all;
         packed.rows.push_back(u32(packed.records.size()));
         appendPairs(links, i, [&](u32 column) { return !linear || column < patchCount; }, packed);
         if (!linear) continue;
         packed.rows.push_back(u32(packed.records.size()));
-        for (u32 k = rows[i]; k < rows[i + 1]; ++k)
-            if (columns[k] >= patchCount)
-                packed.records.push_back(std::bit_cast<gpu::LinkPairRecord>(
-                    gpu::LinearLinkRecord{columns[k], factors[k], moments[2 * k], moments[2 * k + 1]}));
+        for (u32 link = rows[i]; link < rows[i + 1]; ++link)
+            if (columns[link] >= patchCount)
+                packed.records.push_back(std::bit_cast<gpu::LinkPairRecord>(gpu::LinearLinkRecord{
+                    columns[link], factors[link], moments[2 * link], moments[2 * link + 1]}));
     }
     packed.rows.push_back(u32(packed.records.size()));
     if (page.rowCount > 0) packed.pages.push_back(page);

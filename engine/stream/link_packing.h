@@ -25,17 +25,22 @@ struct LinkRows
 /// Whole rows whose records lie in one device buffer.
 struct LinkPage
 {
-    u32 rowFirst = 0, rowCount = 0;
+    u32 rowFirst = 0, rowCount = 0;       ///< into PackedLinks::order
     u32 recordFirst = 0, recordCount = 0; ///< into PackedLinks::records
     bool operator==(const LinkPage&) const = default;
 };
+
+/// Among so many neighbouring rows the longer ones come first, so that threads that run side by side have rows of about
+/// the same length, and still write close together.
+inline constexpr u32 kRowBlock = 512;
 
 /// Links as the gather reads them, in 16-byte records. Constant senders: two links a record, rows padded to even length
 /// with a link of factor 0. Linear senders: the links of a row to patches in the same way, then a LinearLinkRecord for
 /// each of its links to inner nodes (as the bits of a LinkPairRecord), both in their order.
 struct PackedLinks
 {
-    std::vector<u32> rows; ///< rowCount + 1 offsets into records; linear: begin and first linear record of each row, end
+    std::vector<u32> order; ///< receiver of each row
+    std::vector<u32> rows;  ///< rowCount + 1 offsets into records; linear: begin and first linear record of each row, end
     std::vector<gpu::LinkPairRecord> records;
     std::vector<LinkPage> pages; ///< cover all rows in order, empty ones too
 };

@@ -79,6 +79,7 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
     if (t.linear) t.childSlopes = makeBuffer(context, "child slopes", tree->childSlopes);
     t.levels = std::move(tree->levels);
 
+    t.linkOrder = makeBuffer(context, "link order", links->order);
     t.linkRows = makeBuffer(context, "link rows", links->rows);
     for (const LinkPage& page : links->pages)
         t.links.push_back(

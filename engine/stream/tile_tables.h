@@ -35,7 +35,7 @@ struct TileTables
     std::vector<TreeLevel> levels;
 
     bool linear = false; ///< linear senders: links have moments, inner nodes have slopes
-    Buffer linkRows;     ///< see PackedLinks::rows
+    Buffer linkOrder, linkRows; ///< see PackedLinks
     std::vector<LinkPageBuffer> links;
     Contraction contraction;
     bool texelLinks = false; ///< links and radiosity fit texel buffers: the faster gather

@@ -5,6 +5,7 @@
 // moments: with linear senders a row is pairs of links to patches, then single links to inner nodes.
 layout(local_size_x = kSolveGroup) in;
 layout(set = 0, binding = kGatherRows, scalar) readonly buffer Rows { uint rows[]; };
+layout(set = 0, binding = kGatherOrder, scalar) readonly buffer Order { uint receivers[]; };
 layout(set = 0, binding = kGatherIrradiance, scalar) writeonly buffer Irradiance { vec4 irradiance[]; };
 layout(push_constant, scalar) uniform Params { GatherParams params; };
 
@@ -34,5 +35,5 @@ void main()
         sum += uintBitsToFloat(link.w) * fetchSlope(slope + 1u);
     }
 #endif
-    irradiance[row] = sum;
+    irradiance[receivers[row]] = sum;
 }

@@ -84,6 +84,7 @@ HELIO_CONSTANT uint kGatherLinks = 1u;   // LinkPairRecord (and LinearLinkRecord
 HELIO_CONSTANT uint kGatherRadiosity = 2u;
 HELIO_CONSTANT uint kGatherIrradiance = 3u;
 HELIO_CONSTANT uint kGatherSlopes = 4u;  // linear senders: vec4 pairs, an inner node
+HELIO_CONSTANT uint kGatherOrder = 5u;   // receiver of each row
 struct GatherParams {      // push constant
     uint rowFirst;
     uint rowCount;

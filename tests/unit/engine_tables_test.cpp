@@ -24,7 +24,8 @@ TEST(LinkPacking, PairsARowAndPadsOddOnes)
     const std::vector<float> factors{0.1f, 0.2f, 0.3f, 0.4f, 0.5f};
     const auto packed = packLinks({rows, columns, factors, {}, 0}, 100);
     ASSERT_TRUE(packed.ok());
-    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 2, 3}));
+    EXPECT_EQ(packed->order, (std::vector<u32>{0, 2, 1})) << "the longer first";
+    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 3, 3}));
     ASSERT_EQ(packed->records.size(), 3u);
     EXPECT_EQ(packed->records[0].column1, 8u);
     EXPECT_EQ(packed->records[1].column0, 9u);
@@ -37,12 +38,36 @@ TEST(LinkPacking, PairsARowAndPadsOddOnes)
 
 TEST(LinkPacking, PagesHoldWholeRows)
 {
-    // Rows of 2, 3, 0, 1 and 2 pairs; three pairs a page.
+    // Rows of 3, 2, 2, 1 and 0 pairs in this order; three pairs a page.
     const std::vector<u32> rows{0, 4, 9, 9, 11, 15}, columns(15, 1);
     const std::vector<float> factors(15, 0.5f);
     const auto packed = packLinks({rows, columns, factors, {}, 0}, 3);
     ASSERT_TRUE(packed.ok());
-    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 1, 0, 2}, {1, 2, 2, 3}, {3, 2, 5, 3}}));
+    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 1, 0, 3}, {1, 1, 3, 2}, {2, 3, 5, 3}}));
+}
+
+TEST(LinkPacking, SortsInsideBlocksAlone)
+{
+    // Every fifth row is longer than the others, in a block and a bit.
+    std::vector<u32> rows{0};
+    for (u32 i = 0; i < kRowBlock + 10; ++i) rows.push_back(rows.back() + (i % 5 == 4 ? 3 : 1));
+    const std::vector<u32> columns(rows.back(), 0);
+    const std::vector<float> factors(rows.back(), 0.5f);
+    const auto packed = packLinks({rows, columns, factors, {}, 1}, 1u << 20);
+    ASSERT_TRUE(packed.ok());
+    std::vector<bool> seen(kRowBlock + 10, false);
+    for (u32 k = 0; k < packed->order.size(); ++k) {
+        const u32 row = packed->order[k];
+        EXPECT_EQ(row / kRowBlock, k / kRowBlock);
+        EXPECT_EQ(packed->rows[k + 1] - packed->rows[k], (rows[row + 1] - rows[row] + 1) / 2);
+        EXPECT_FALSE(seen[row]);
+        seen[row] = true;
+        if (k % kRowBlock > 0) {
+            EXPECT_LE(packed->rows[k + 1] - packed->rows[k], packed->rows[k] - packed->rows[k - 1]);
+        }
+    }
+    EXPECT_EQ(packed->order[0], 4u);
+    EXPECT_EQ(packed->order[kRowBlock], kRowBlock + 2) << "514 = 4 mod 5";
 }
 
 TEST(LinkPacking, RefusesARowThatNoPageHolds)
@@ -66,7 +91,8 @@ TEST(LinkPacking, LinearSendersFollowThePatchesOfTheirRow)
     const std::vector<float> moments{9, 9, 0.02f, -0.03f, 9, 9, 0.04f, 0.05f, 9, 9, -0.06f, 0.07f};
     const auto packed = packLinks({rows, columns, factors, moments, 5}, 4);
     ASSERT_TRUE(packed.ok());
-    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 4, 4, 4, 4, 5}));
+    EXPECT_EQ(packed->order, (std::vector<u32>{0, 2, 1}));
+    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 4, 4, 5, 5, 5}));
     ASSERT_EQ(packed->records.size(), 5u);
     EXPECT_EQ(packed->records[0].column0, 1u);
     EXPECT_EQ(packed->records[0].column1, 2u);
@@ -83,7 +109,7 @@ TEST(LinkPacking, LinearSendersFollowThePatchesOfTheirRow)
     expectLinear(2, 7, 0.2f, 0.02f, -0.03f);
     expectLinear(3, 6, 0.4f, 0.04f, 0.05f);
     expectLinear(4, 5, 0.6f, -0.06f, 0.07f);
-    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 2, 0, 4}, {2, 1, 4, 1}}));
+    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 1, 0, 4}, {1, 2, 4, 1}}));
 }
 
 TEST(TreeLevels, OrdersByHeightAndWeighsByArea)

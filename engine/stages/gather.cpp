@@ -124,13 +124,11 @@ LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light)
                         : (tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp);
         pass.record([=, &shader, linear = tile.linear](PassContext& ctx) {
             for (const Page& page : pages) {
-                std::vector<Binding> bindings{
-                    storage(gpu::kGatherOrder, order), storage(gpu::kGatherRows, rows),
-                    texels(gpu::kGatherLinks, page.records, VK_FORMAT_R32G32B32A32_UINT),
-                    texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
-                    storage(gpu::kGatherIrradiance, out.irradiance)};
-                if (linear)
-                    bindings.push_back(texels(gpu::kGatherSlopes, out.slopes, VK_FORMAT_R32G32B32A32_SFLOAT));
+                std::vector<Binding> bindings{storage(gpu::kGatherOrder, order), storage(gpu::kGatherRows, rows),
+                                              texels(gpu::kGatherLinks, page.records, VK_FORMAT_R32G32B32A32_UINT),
+                                              texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                              storage(gpu::kGatherIrradiance, out.irradiance)};
+                if (linear) bindings.push_back(texels(gpu::kGatherSlopes, out.slopes, VK_FORMAT_R32G32B32A32_SFLOAT));
                 ctx.dispatchBytes(shader, bindings, std::as_bytes(std::span(&page.params, 1)),
                                   groupsFor(page.params.rowCount, gpu::kSolveGroup), {});
             }
@@ -157,14 +155,13 @@ UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, 
         const auto irradiance = pass.read(light.irradiance, Use::ComputeRead);
         const auto radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
         const auto sums = pass.write(partials, Use::ComputeWrite);
-        const Ref<Buffer> before =
-            chebyshev ? pass.write(chebyshev->before, Use::ComputeReadWrite) : Ref<Buffer>{};
+        const Ref<Buffer> before = chebyshev ? pass.write(chebyshev->before, Use::ComputeReadWrite) : Ref<Buffer>{};
         const gpu::UpdateParams params{chebyshev ? chebyshev->weight : glm::vec4(1.0f), tile.patchCount};
         pass.record([=, accelerated = chebyshev.has_value()](PassContext& ctx) {
-            std::vector<Binding> bindings{
-                storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
-                storage(gpu::kUpdateIrradiance, irradiance), storage(gpu::kUpdateRadiosity, radiosity),
-                storage(gpu::kUpdatePartials, sums)};
+            std::vector<Binding> bindings{storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
+                                          storage(gpu::kUpdateIrradiance, irradiance),
+                                          storage(gpu::kUpdateRadiosity, radiosity),
+                                          storage(gpu::kUpdatePartials, sums)};
             if (accelerated) bindings.push_back(storage(gpu::kUpdateBefore, before));
             ctx.dispatchBytes(accelerated ? shaders::kUpdateChebyshevComp : shaders::kUpdateComp, bindings,
                               std::as_bytes(std::span(&params, 1)),
@@ -217,7 +214,8 @@ double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRe
         if (!(sums.change[c] > 0.0f && sums.scale[c] > 0.0f)) continue;
         const double residual = std::sqrt(double(sums.change[c]) / double(sums.scale[c]));
         double q = radius[c];
-        if (!(q > 0.0)) q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
+        if (!(q > 0.0))
+            q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
         worst = std::max(worst, residual * q / (1.0 - std::min(q, kSlowest)));
     }
     return worst;

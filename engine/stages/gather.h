@@ -47,7 +47,7 @@ struct UpdateRefs
 /// What Chebyshev's semi-iteration needs beside a sweep.
 struct ChebyshevRefs
 {
-    Ref<Buffer> before; ///< vec4 a patch: the radiosity before the sweep before; kept up by the sweeps
+    Ref<Buffer> before;     ///< vec4 a patch: the radiosity before the sweep before; kept up by the sweeps
     glm::vec4 weight{1.0f}; ///< see chebyshevWeight; a channel of weight 1 makes a plain sweep
 };
 /// One Jacobi sweep: gather, push, B = B0 + rho E at the patches, pull; and the sums of the residual of the B before.
@@ -66,8 +66,8 @@ double residualOf(const gpu::ResidualRecord& sums);
 double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums,
                         const glm::dvec4& radius = glm::dvec4(0.0));
 /// largest |B_new - B| / (1 - contraction), W/m2, a channel. No patch of the B that the sweep started from is further
-/// from the solution; B_new, and the E that made it, are off by at most the contraction number, and the patch's row sum,
-/// times this. Rigorous in exact arithmetic; infinite where the contraction number is 1 or more.
+/// from the solution; B_new, and the E that made it, are off by at most the contraction number, and the patch's row
+/// sum, times this. Rigorous in exact arithmetic; infinite where the contraction number is 1 or more.
 glm::dvec4 errorBoundOf(const gpu::ResidualRecord& sums, const glm::dvec4& contraction);
 
 } // namespace helio

@@ -20,10 +20,10 @@ std::vector<double> absoluteLinkSums(const TileView& tile);
 /// How much of an error in the radiosity a sweep can leave, in the maximum norm.
 struct Contraction
 {
-    /// The largest reflectance x absoluteLinkSums of a patch, a channel. Below 1 every sweep shrinks the largest error by
-    /// at least this factor, and change / (1 - number) bounds the error.
+    /// The largest reflectance x absoluteLinkSums of a patch, a channel. Below 1 every sweep shrinks the largest error
+    /// by at least this factor, and change / (1 - number) bounds the error.
     glm::dvec4 number{0.0};
-    u32 patch = 0; ///< that has the largest number of all channels
+    u32 patch = 0;                           ///< that has the largest number of all channels
     double reflectance = 0.0, linkSum = 0.0; ///< its factors
 
     double largest() const { return reflectance * linkSum; }

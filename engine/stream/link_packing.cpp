@@ -84,13 +84,14 @@ Result<PackedLinks> packLinks(const LinkRows& links, u64 maxRecordsPerPage)
         ++page.rowCount;
         page.recordCount += sizes[i].all;
         packed.rows.push_back(u32(packed.records.size()));
-        appendPairs(links, i, [&](u32 column) { return !linear || column < patchCount; }, packed);
+        appendPairs(
+            links, i, [&](u32 column) { return !linear || column < patchCount; }, packed);
         if (!linear) continue;
         packed.rows.push_back(u32(packed.records.size()));
         for (u32 link = rows[i]; link < rows[i + 1]; ++link)
             if (columns[link] >= patchCount)
-                packed.records.push_back(std::bit_cast<gpu::LinkPairRecord>(gpu::LinearLinkRecord{
-                    columns[link], factors[link], moments[2 * link], moments[2 * link + 1]}));
+                packed.records.push_back(std::bit_cast<gpu::LinkPairRecord>(
+                    gpu::LinearLinkRecord{columns[link], factors[link], moments[2 * link], moments[2 * link + 1]}));
     }
     packed.rows.push_back(u32(packed.records.size()));
     if (page.rowCount > 0) packed.pages.push_back(page);

@@ -12,11 +12,11 @@ namespace helio {
 /// The links of a pack (see TileView), with what repacking needs to know of the nodes.
 struct LinkRows
 {
-    std::span<const u32> rows;       ///< rowCount + 1 ascending offsets into columns
-    std::span<const u32> columns;    ///< sender node
-    std::span<const float> factors;  ///< a link
-    std::span<const float> moments;  ///< two a link, or empty: constant senders
-    u32 patchCount = 0;              ///< senders below this are patches, which have no slopes
+    std::span<const u32> rows;      ///< rowCount + 1 ascending offsets into columns
+    std::span<const u32> columns;   ///< sender node
+    std::span<const float> factors; ///< a link
+    std::span<const float> moments; ///< two a link, or empty: constant senders
+    u32 patchCount = 0;             ///< senders below this are patches, which have no slopes
 
     u32 rowCount() const { return u32(rows.size() - 1); }
     bool linear() const { return !moments.empty(); }
@@ -40,7 +40,8 @@ inline constexpr u32 kRowBlock = 512;
 struct PackedLinks
 {
     std::vector<u32> order; ///< receiver of each row
-    std::vector<u32> rows;  ///< rowCount + 1 offsets into records; linear: begin and first linear record of each row, end
+    std::vector<u32>
+        rows; ///< rowCount + 1 offsets into records; linear: begin and first linear record of each row, end
     std::vector<gpu::LinkPairRecord> records;
     std::vector<LinkPage> pages; ///< cover all rows in order, empty ones too
 };

@@ -82,10 +82,9 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
     t.linkOrder = makeBuffer(context, "link order", links->order);
     t.linkRows = makeBuffer(context, "link rows", links->rows);
     for (const LinkPage& page : links->pages)
-        t.links.push_back(
-            {page, makeBuffer(context, "links",
-                              std::span<const gpu::LinkPairRecord>(links->records)
-                                  .subspan(page.recordFirst, page.recordCount))});
+        t.links.push_back({page, makeBuffer(context, "links",
+                                            std::span<const gpu::LinkPairRecord>(links->records)
+                                                .subspan(page.recordFirst, page.recordCount))});
 
     if (tile.skyColumns.size_bytes() > context.facts().maxStorageBufferBytes)
         return Error{concat(tile.skyColumns.size(), " sky links are more than one buffer of this device holds (",

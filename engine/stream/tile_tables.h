@@ -31,10 +31,10 @@ struct TileTables
     Buffer nodes;           ///< NodeRecord
     Buffer parents;         ///< u32 a node
     Buffer childRows, children;
-    Buffer childSlopes;     ///< ChildSlopeRecord, parallel to children; linear senders only
+    Buffer childSlopes; ///< ChildSlopeRecord, parallel to children; linear senders only
     std::vector<TreeLevel> levels;
 
-    bool linear = false; ///< linear senders: links have moments, inner nodes have slopes
+    bool linear = false;        ///< linear senders: links have moments, inner nodes have slopes
     Buffer linkOrder, linkRows; ///< see PackedLinks
     std::vector<LinkPageBuffer> links;
     Contraction contraction;

@@ -20,10 +20,10 @@ struct TreeLevel
 /// The tree as push and pull read it.
 struct TreeLevels
 {
-    std::vector<TreeLevel> levels;          ///< upwards; level 0 is the parents of patches alone
-    std::vector<u32> parents;               ///< a node
-    std::vector<u32> childRows;             ///< inner nodes + 1 offsets into children
-    std::vector<gpu::ChildRecord> children; ///< in the pack's order
+    std::vector<TreeLevel> levels;                  ///< upwards; level 0 is the parents of patches alone
+    std::vector<u32> parents;                       ///< a node
+    std::vector<u32> childRows;                     ///< inner nodes + 1 offsets into children
+    std::vector<gpu::ChildRecord> children;         ///< in the pack's order
     std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to them; empty: constant senders
 };
 

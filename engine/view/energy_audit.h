@@ -10,10 +10,10 @@ namespace helio {
 /// Where the light of a solve comes from and where it goes, W, a channel; sums over the patches in double.
 struct EnergyAudit
 {
-    glm::dvec4 sun{0.0}, sky{0.0}, emission{0.0};   ///< A E_sun, A E_sky, A M
-    glm::dvec4 absorbed{0.0};                       ///< A (1 - rho) (E_sun + E_sky + E_indirect)
-    glm::dvec4 toSky{0.0};                          ///< A B x sum of the patch's sky links
-    glm::dvec4 away{0.0};                           ///< A B x the rest: 1 - links of the patch and its ancestors - sky
+    glm::dvec4 sun{0.0}, sky{0.0}, emission{0.0}; ///< A E_sun, A E_sky, A M
+    glm::dvec4 absorbed{0.0};                     ///< A (1 - rho) (E_sun + E_sky + E_indirect)
+    glm::dvec4 toSky{0.0};                        ///< A B x sum of the patch's sky links
+    glm::dvec4 away{0.0};                         ///< A B x the rest: 1 - links of the patch and its ancestors - sky
 
     glm::dvec4 in() const { return sun + sky + emission; }
     glm::dvec4 out() const { return absorbed + toSky + away; }

@@ -12,7 +12,8 @@
 
 namespace helio {
 
-/// The stage of the report that a pass belongs to; `other`: that of passes which any stage may have (fills, read backs).
+/// The stage of the report that a pass belongs to; `other`: that of passes which any stage may have (fills, read
+/// backs).
 std::string stageOf(const std::string& pass, const std::string& other);
 
 /// Stages 1 to 3 with the buffers that hold their results. Runs only what a change of the light asks for: the sun
@@ -28,11 +29,11 @@ public:
     RendererOptions& options() { return options_; }
     const SunView& sunView() const { return sunView_; }
     const Image& shadow() const { return *shadow_; }
-    const Buffer& counts() const { return counts_; }       ///< u32 a patch
-    const Buffer& sun() const { return sun_; }             ///< vec4 a patch
-    const Buffer& sky() const { return sky_; }             ///< vec4 a patch
-    const Buffer& indirect() const { return irradiance_; } ///< vec4 a node; E_indirect at the patches
-    const Buffer& radiosity() const { return radiosity_; } ///< vec4 a node
+    const Buffer& counts() const { return counts_; }             ///< u32 a patch
+    const Buffer& sun() const { return sun_; }                   ///< vec4 a patch
+    const Buffer& sky() const { return sky_; }                   ///< vec4 a patch
+    const Buffer& indirect() const { return irradiance_; }       ///< vec4 a node; E_indirect at the patches
+    const Buffer& radiosity() const { return radiosity_; }       ///< vec4 a node
     const SpectralBounds& spectrum() const { return spectrum_; } ///< zero where the contraction number is below a half
 
 private:
@@ -59,8 +60,7 @@ private:
     glm::dvec4 radius_{0.0}; ///< see chebyshevRadius
     SunView sunView_;
     std::optional<Image> ids_, shadow_;
-    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, slopes_, before_, partials_,
-        residual_;
+    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, slopes_, before_, partials_, residual_;
     Buffer residualHost_, tallyHost_;
 };
 

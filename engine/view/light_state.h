@@ -18,11 +18,11 @@ struct FirstLight
 /// Everything that decides the light of a scene. Stages 1 to 3 run again only when it changed.
 struct LightState
 {
-    glm::dvec3 towardsSun{0.0, 0.0, 1.0}; ///< unit, tile frame
-    double dni = 800.0;                   ///< W/m2, >= 0; 0 also when the sun is below the horizon
-    double dhi = 120.0;                   ///< W/m2, >= 0, of the sky
-    std::vector<float> skyRadiance;       ///< W/m2/sr, one a sky patch; empty = the uniform sky of that dhi
-    bool emission = true;                 ///< patches emit their own light
+    glm::dvec3 towardsSun{0.0, 0.0, 1.0};    ///< unit, tile frame
+    double dni = 800.0;                      ///< W/m2, >= 0; 0 also when the sun is below the horizon
+    double dhi = 120.0;                      ///< W/m2, >= 0, of the sky
+    std::vector<float> skyRadiance;          ///< W/m2/sr, one a sky patch; empty = the uniform sky of that dhi
+    bool emission = true;                    ///< patches emit their own light
     std::shared_ptr<const FirstLight> given; ///< stands in place of the sun raster and the sky links, if there is one
 
     /// Is there sunlight? A sun at or below the horizon gives none.

@@ -39,16 +39,16 @@ struct SolveReport
 {
     bool cached = false; ///< nothing changed: the last solution stands, the figures are its own
     u32 sweeps = 0;
-    double residual = 0.0;         ///< of the radiosity that the last sweep started from; the result's own is smaller
-    /// W/m2, a channel: no patch of that radiosity is further from the solution, rounding aside; the result's own are off
-    /// by at most the contraction number, and its E_indirect by the row sum, times this. Infinite from number 1 on.
+    double residual = 0.0; ///< of the radiosity that the last sweep started from; the result's own is smaller
+    /// W/m2, a channel: no patch of that radiosity is further from the solution, rounding aside; the result's own are
+    /// off by at most the contraction number, and its E_indirect by the row sum, times this. Infinite from number 1 on.
     glm::dvec4 bound{0.0};
-    glm::dvec4 contraction{0.0}; ///< see Contraction::number
-    bool accelerated = false;    ///< Chebyshev's semi-iteration (chebyshevRadius), in some channel at least
-    glm::dvec4 meanRadiosity{0.0}; ///< W/m2, area-weighted mean of B over all patches
-    u32 litPatches = 0;            ///< patches that face the sun
-    u32 flaggedPatches = 0;        ///< of them, lit by an ancestor's ratio: too few texels, or grazing
-    u32 excessPatches = 0;         ///< of them, more texels than their area explains; clamped
+    glm::dvec4 contraction{0.0};             ///< see Contraction::number
+    bool accelerated = false;                ///< Chebyshev's semi-iteration (chebyshevRadius), in some channel at least
+    glm::dvec4 meanRadiosity{0.0};           ///< W/m2, area-weighted mean of B over all patches
+    u32 litPatches = 0;                      ///< patches that face the sun
+    u32 flaggedPatches = 0;                  ///< of them, lit by an ancestor's ratio: too few texels, or grazing
+    u32 excessPatches = 0;                   ///< of them, more texels than their area explains; clamped
     double sunTexelX = 0.0, sunTexelY = 0.0; ///< m
     u32 sunViews = 0, sunWidth = 0, sunHeight = 0;
     std::vector<PassTime> stages; ///< milliseconds on the device: sun raster, histogram, sun energy, sky, gather

@@ -47,7 +47,8 @@ TileBuilder makeTree(u32 patchCount, u64 seed)
         std::vector<u32> next;
         for (size_t i = 0; i < level.size(); i += 5) {
             const size_t end = std::min(i + 5, level.size());
-            next.push_back(b.group({level.begin() + long(i), level.begin() + long(end)}, randomSlopes(random, end - i)));
+            next.push_back(
+                b.group({level.begin() + long(i), level.begin() + long(end)}, randomSlopes(random, end - i)));
         }
         level = next;
     }
@@ -283,7 +284,8 @@ TEST_F(GatherTest, PullsSlopesUp)
     FrameGraph graph("pull");
     (void)addPullLight(graph, tile, {{}, graph.import(means), {}, graph.import(slopes)});
     execute(graph);
-    const auto pulled = downloadItems<glm::vec4>(context(), means), pulledSlopes = downloadItems<glm::vec4>(context(), slopes);
+    const auto pulled = downloadItems<glm::vec4>(context(), means),
+               pulledSlopes = downloadItems<glm::vec4>(context(), slopes);
     const twin::NodeLight expected = twin::pullLight(view, toDouble({light.begin(), light.begin() + kPatches}));
     ASSERT_EQ(tile.levels.size(), 5u);
     // On level k slopes stay below 1000 k. They take over the error of the level below, that of the means below (7
@@ -346,9 +348,9 @@ protected:
             {graph.import(b0), graph.import(radiosity), graph.import(irradiance), graph.import(slopes)}, true, false);
         UpdateRefs out{light, graph.import(residual)};
         // What lies in `before` at first is nobody's light and must not matter.
-        const Buffer before = makeBuffer(
-            context(), "B before",
-            std::vector<glm::vec4>(tile.patchCount, glm::vec4(std::numeric_limits<float>::quiet_NaN())));
+        const Buffer before =
+            makeBuffer(context(), "B before",
+                       std::vector<glm::vec4>(tile.patchCount, glm::vec4(std::numeric_limits<float>::quiet_NaN())));
         glm::dvec4 weight(1.0);
         for (u32 k = 0; k < sweeps; ++k) {
             weight = chebyshevWeight(k, weight, radius);

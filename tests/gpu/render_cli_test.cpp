@@ -314,11 +314,12 @@ TEST_F(RenderCli, PrintsBoundAndEnergyBalance)
     const char* energy = std::strstr(result.out.c_str(), "Energy (solar)");
     ASSERT_NE(energy, nullptr) << result.out;
     double in, sun, sky, emitters, absorbed, toSky, away, missing;
-    ASSERT_EQ(std::sscanf(energy,
-                          "Energy (solar): in %lf W = sun %lf %% + sky %lf %% + emitters %lf %%; absorbed %lf %%, out to "
-                          "the sky %lf %%, out of the scene %lf %%; unexplained %lf %%",
-                          &in, &sun, &sky, &emitters, &absorbed, &toSky, &away, &missing),
-              8)
+    ASSERT_EQ(
+        std::sscanf(energy,
+                    "Energy (solar): in %lf W = sun %lf %% + sky %lf %% + emitters %lf %%; absorbed %lf %%, out to "
+                    "the sky %lf %%, out of the scene %lf %%; unexplained %lf %%",
+                    &in, &sun, &sky, &emitters, &absorbed, &toSky, &away, &missing),
+        8)
         << energy;
     EXPECT_NEAR(sun + sky + emitters, 100.0, 0.02);
     EXPECT_NEAR(absorbed + toSky + away + missing, 100.0, 0.03);
@@ -352,7 +353,8 @@ TEST_F(RenderCli, FirstLightOfATableStandsInPlaceOfTheRaster)
     put("twice.csv", twice);
     ASSERT_EQ(render("p --no-emission --first-light a.csv --table one.csv").exitCode, 0);
     ASSERT_EQ(render("p --no-emission --first-light twice.csv --table two.csv").exitCode, 0);
-    const std::vector<std::string> one = split(afterComment("one.csv"), '\n'), two = split(afterComment("two.csv"), '\n');
+    const std::vector<std::string> one = split(afterComment("one.csv"), '\n'),
+                                   two = split(afterComment("two.csv"), '\n');
     ASSERT_EQ(one.size(), two.size());
     for (size_t i = 1; i < one.size(); ++i) {
         const double single = std::stod(split(one[i], ',').back()), doubled = std::stod(split(two[i], ',').back());

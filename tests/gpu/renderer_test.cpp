@@ -166,8 +166,7 @@ TEST_F(RendererTest, SaysWhereLinksDoNotContract)
         const SolveReport report = renderer->solve();
         EXPECT_NEAR(report.contraction.r, 1.125, 1e-5);
         EXPECT_TRUE(std::isinf(report.bound.r));
-        EXPECT_NE(renderer->note().find(everywhere ? "may never converge" : "converge all the same"),
-                  std::string::npos)
+        EXPECT_NE(renderer->note().find(everywhere ? "may never converge" : "converge all the same"), std::string::npos)
             << renderer->note();
         EXPECT_EQ(report.residual <= 1e-3, !everywhere);
     }

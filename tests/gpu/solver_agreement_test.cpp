@@ -107,8 +107,7 @@ protected:
         const LightRefs start{graph.import(b0), graph.import(b), graph.import(e), graph.import(slopes)};
         UpdateRefs out{addFirstLight(graph, *tile, {graph.import(none), graph.import(none)}, start, true, false),
                        graph.import(residual)};
-        for (u32 k = 0; k < sweeps; ++k)
-            out = addSweep(graph, *tile, out.light, graph.import(partials), out.residual);
+        for (u32 k = 0; k < sweeps; ++k) out = addSweep(graph, *tile, out.light, graph.import(partials), out.residual);
         const Status compiled = graph.compile(context());
         EXPECT_TRUE(compiled.ok()) << compiled.error().message;
         Recorder recorder(context());

@@ -62,7 +62,8 @@ NodeLight pullLight(const TileView& tile, std::span<const glm::dvec4> values)
             const u32 child = tile.children[k];
             const gpu::ChildSlopeRecord& s = tile.childSlopes[k];
             const double share = double(tile.nodes[child].area) / double(node.area);
-            const glm::dvec4 mean = share * out.mean[child], x = share * out.slopeX[child], y = share * out.slopeY[child];
+            const glm::dvec4 mean = share * out.mean[child], x = share * out.slopeX[child],
+                             y = share * out.slopeY[child];
             out.slopeX[i] += double(s.offsetX) * mean + double(s.xx) * x + double(s.xy) * y;
             out.slopeY[i] += double(s.offsetY) * mean + double(s.yx) * x + double(s.yy) * y;
         }
@@ -135,8 +136,7 @@ glm::dvec4 weightOf(u32 sweep, const glm::dvec4& radius)
     glm::dvec4 weight(1.0);
     for (int c = 0; c < 4; ++c)
         if (sweep > 0 && radius[c] > 0.0)
-            weight[c] =
-                2.0 / radius[c] * chebyshev(sweep, 1.0 / radius[c]) / chebyshev(sweep + 1, 1.0 / radius[c]);
+            weight[c] = 2.0 / radius[c] * chebyshev(sweep, 1.0 / radius[c]) / chebyshev(sweep + 1, 1.0 / radius[c]);
     return weight;
 }
 

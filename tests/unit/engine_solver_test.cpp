@@ -51,7 +51,7 @@ TEST(Contraction, MomentsCountWhereTheyCanMakeAFactorNegative)
 {
     Trio t;
     t.b.linear = true;
-    t.b.link(0, t.group, 0.4f, {0.3f, 9.0f}); // 0.4 -+ 0.3 >= 0; the second coordinate is 0 everywhere
+    t.b.link(0, t.group, 0.4f, {0.3f, 9.0f});  // 0.4 -+ 0.3 >= 0; the second coordinate is 0 everywhere
     t.b.link(1, t.group, 0.3f, {-0.4f, 0.0f}); // 0.3 +- 0.4
     t.b.link(2, 0, 0.25f, {7.0f, 7.0f});       // a patch has no slope
     const TileView view = t.b.view();
@@ -64,7 +64,8 @@ TEST(Contraction, MomentsCountWhereTheyCanMakeAFactorNegative)
 
 TEST(Contraction, BoundsTheFactorsOfDeepTrees)
 {
-    // Four patches at -3, -1, 1, 3 in two pairs: deviations 1 in a pair, sqrt(5) in all. F + M x / sqrt(5) touches 0 at 3.
+    // Four patches at -3, -1, 1, 3 in two pairs: deviations 1 in a pair, sqrt(5) in all. F + M x / sqrt(5) touches 0
+    // at 3.
     TileBuilder b;
     b.linear = true;
     for (int i = 0; i < 4; ++i) b.patch({0, 0, 1}, 1.0f, glm::vec4(0.5f));
@@ -81,7 +82,8 @@ TEST(Contraction, BoundsTheFactorsOfDeepTrees)
 
 TEST(Acceleration, BoundsTheEigenvalueFromBothSides)
 {
-    // Two patches that see each other: B0 = rho0 f01 B1, B1 = rho1 f10 B0 with A0 f01 = A1 f10; eigenvalues +-sqrt(k0 k1).
+    // Two patches that see each other: B0 = rho0 f01 B1, B1 = rho1 f10 B0 with A0 f01 = A1 f10; eigenvalues +-sqrt(k0
+    // k1).
     TileBuilder b;
     b.patch({0, 0, 1}, 1.0f, glm::vec4(0.5f, 0.5f, 0.0f, 0.8f));
     b.patch({0, 0, 1}, 2.0f, glm::vec4(0.9f, 0.5f, 0.0f, 0.8f));

@@ -85,7 +85,8 @@ TEST(LinkPacking, RefusesARowThatNoPageHolds)
 
 TEST(LinkPacking, LinearSendersFollowThePatchesOfTheirRow)
 {
-    // Nodes 0 to 4 are patches, which have no slopes. Row 0: three patches among two inner nodes; 1: empty; 2: one inner.
+    // Nodes 0 to 4 are patches, which have no slopes. Row 0: three patches among two inner nodes; 1: empty; 2: one
+    // inner.
     const std::vector<u32> rows{0, 5, 5, 6}, columns{1, 7, 2, 6, 4, 5};
     const std::vector<float> factors{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f};
     const std::vector<float> moments{9, 9, 0.02f, -0.03f, 9, 9, 0.04f, 0.05f, 9, 9, -0.06f, 0.07f};

@@ -9,6 +9,10 @@
 
 layout(set = 0, binding = kGatherLinks) uniform utextureBuffer links;
 layout(set = 0, binding = kGatherRadiosity) uniform textureBuffer radiosity;
-uvec4 fetchLinks(uint pair) { return texelFetch(links, int(pair)); }
+uvec4 fetchLinks(uint record) { return texelFetch(links, int(record)); }
 vec4 fetchRadiosity(uint node) { return texelFetch(radiosity, int(node)); }
+#ifdef HELIO_LINEAR
+layout(set = 0, binding = kGatherSlopes) uniform textureBuffer slopes;
+vec4 fetchSlope(uint index) { return texelFetch(slopes, int(index)); }
+#endif
 #include "shaders/lib/gather.glsl"

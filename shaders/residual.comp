@@ -13,26 +13,30 @@ layout(push_constant, scalar) uniform Params { ResidualParams params; };
 shared vec4 change[kResidualGroup];
 shared vec4 scale[kResidualGroup];
 shared vec4 total[kResidualGroup];
+shared vec4 largest[kResidualGroup];
 
 void main()
 {
     const uint lane = gl_LocalInvocationID.x;
-    vec4 c = vec4(0.0), s = vec4(0.0), t = vec4(0.0);
+    vec4 c = vec4(0.0), s = vec4(0.0), t = vec4(0.0), m = vec4(0.0);
     for (uint i = lane; i < params.partialCount; i += kResidualGroup) {
         c += partials[i].change;
         s += partials[i].scale;
         t += partials[i].radiosity;
+        m = max(m, partials[i].largest);
     }
     change[lane] = c;
     scale[lane] = s;
     total[lane] = t;
+    largest[lane] = m;
     for (uint width = kResidualGroup / 2u; width > 0u; width /= 2u) {
         barrier();
         if (lane < width) {
             change[lane] += change[lane + width];
             scale[lane] += scale[lane + width];
             total[lane] += total[lane + width];
+            largest[lane] = max(largest[lane], largest[lane + width]);
         }
     }
-    if (lane == 0u) result = ResidualRecord(change[0], scale[0], total[0]);
+    if (lane == 0u) result = ResidualRecord(change[0], scale[0], total[0], largest[0]);
 }

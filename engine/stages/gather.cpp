@@ -19,7 +19,7 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
         const auto sky = pass.read(direct.sky, Use::ComputeRead);
         const auto indirect = pass.read(light.irradiance, Use::ComputeRead);
         const LightRefs out{pass.write(light.b0, Use::ComputeWrite), pass.write(light.radiosity, Use::ComputeWrite),
-                            light.irradiance};
+                            light.irradiance, light.slopes};
         const gpu::FirstLightParams params{tile.patchCount, emission ? 1.0f : 0.0f, warm ? 1.0f : 0.0f, 0};
         pass.record([=](PassContext& ctx) {
             ctx.dispatch(shaders::kFirstLightComp,
@@ -30,8 +30,7 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
         });
         return out;
     });
-    light.radiosity = addPull(graph, tile, light.radiosity);
-    return light;
+    return addPullLight(graph, tile, light);
 }
 
 Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values, const std::string& name)
@@ -45,6 +44,34 @@ Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
                 ctx.dispatch(shaders::kPullComp,
                              {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
                               storage(gpu::kPullValues, out)},
+                             gpu::LevelParams{level.first, level.count, patchCount},
+                             groupsFor(level.count, gpu::kSolveGroup));
+                ctx.barrier();
+            }
+        });
+        return out;
+    });
+}
+
+LightRefs addPullLight(FrameGraph& graph, const TileTables& tile, LightRefs light)
+{
+    if (!tile.linear) {
+        light.radiosity = addPull(graph, tile, light.radiosity);
+        return light;
+    }
+    return graph.addPass("pull", [&](PassBuilder& pass) {
+        const auto rows = pass.read(pass.import(tile.childRows), Use::ComputeRead);
+        const auto children = pass.read(pass.import(tile.children), Use::ComputeRead);
+        const auto childSlopes = pass.read(pass.import(tile.childSlopes), Use::ComputeRead);
+        LightRefs out = light;
+        out.radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
+        out.slopes = pass.write(light.slopes, Use::ComputeReadWrite);
+        pass.record([=, levels = tile.levels, patchCount = tile.patchCount](PassContext& ctx) {
+            for (const TreeLevel& level : levels) {
+                ctx.dispatch(shaders::kPullLinearComp,
+                             {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
+                              storage(gpu::kPullChildSlopes, childSlopes), storage(gpu::kPullValues, out.radiosity),
+                              storage(gpu::kPullSlopes, out.slopes)},
                              gpu::LevelParams{level.first, level.count, patchCount},
                              groupsFor(level.count, gpu::kSolveGroup));
                 ctx.barrier();
@@ -74,32 +101,39 @@ Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
     });
 }
 
-Ref<Buffer> addGather(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiosity, Ref<Buffer> irradiance)
+LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light)
 {
     return graph.addPass("gather", [&](PassBuilder& pass) {
         struct Page
         {
-            Ref<Buffer> pairs;
+            Ref<Buffer> records;
             gpu::GatherParams params;
         };
         std::vector<Page> pages;
         for (const LinkPageBuffer& links : tile.links)
-            pages.push_back({pass.read(pass.import(links.pairs), Use::ComputeRead),
-                             {links.page.rowFirst, links.page.rowCount, links.page.pairFirst}});
+            pages.push_back({pass.read(pass.import(links.records), Use::ComputeRead),
+                             {links.page.rowFirst, links.page.rowCount, links.page.recordFirst, tile.patchCount}});
+        const auto order = pass.read(pass.import(tile.linkOrder), Use::ComputeRead);
         const auto rows = pass.read(pass.import(tile.linkRows), Use::ComputeRead);
-        const auto from = pass.read(radiosity, Use::ComputeRead);
-        const auto to = pass.write(irradiance, Use::ComputeWrite);
-        const ShaderCode& shader = tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp;
-        pass.record([=, &shader](PassContext& ctx) {
-            for (const Page& page : pages)
-                ctx.dispatch(shader,
-                             {storage(gpu::kGatherRows, rows),
-                              texels(gpu::kGatherLinks, page.pairs, VK_FORMAT_R32G32B32A32_UINT),
-                              texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
-                              storage(gpu::kGatherIrradiance, to)},
-                             page.params, groupsFor(page.params.rowCount, gpu::kSolveGroup));
+        const auto from = pass.read(light.radiosity, Use::ComputeRead);
+        LightRefs out = light;
+        if (tile.linear) out.slopes = pass.read(light.slopes, Use::ComputeRead);
+        out.irradiance = pass.write(light.irradiance, Use::ComputeWrite);
+        const ShaderCode& shader =
+            tile.linear ? (tile.texelLinks ? shaders::kGatherTexelLinearComp : shaders::kGatherLinearComp)
+                        : (tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp);
+        pass.record([=, &shader, linear = tile.linear](PassContext& ctx) {
+            for (const Page& page : pages) {
+                std::vector<Binding> bindings{storage(gpu::kGatherOrder, order), storage(gpu::kGatherRows, rows),
+                                              texels(gpu::kGatherLinks, page.records, VK_FORMAT_R32G32B32A32_UINT),
+                                              texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                              storage(gpu::kGatherIrradiance, out.irradiance)};
+                if (linear) bindings.push_back(texels(gpu::kGatherSlopes, out.slopes, VK_FORMAT_R32G32B32A32_SFLOAT));
+                ctx.dispatchBytes(shader, bindings, std::as_bytes(std::span(&page.params, 1)),
+                                  groupsFor(page.params.rowCount, gpu::kSolveGroup), {});
+            }
         });
-        return to;
+        return out;
     });
 }
 
@@ -110,9 +144,9 @@ u32 updateGroups(const TileTables& tile)
 }
 
 UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
-                    Ref<Buffer> residual)
+                    Ref<Buffer> residual, const std::optional<ChebyshevRefs>& chebyshev)
 {
-    light.irradiance = addGather(graph, tile, light.radiosity, light.irradiance);
+    light = addGather(graph, tile, light);
     light.irradiance = addPush(graph, tile, light.irradiance);
     const u32 partialCount = updateGroups(tile);
     const auto updated = graph.addPass("update", [&](PassBuilder& pass) {
@@ -121,16 +155,22 @@ UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, 
         const auto irradiance = pass.read(light.irradiance, Use::ComputeRead);
         const auto radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
         const auto sums = pass.write(partials, Use::ComputeWrite);
-        pass.record([=, params = gpu::UpdateParams{tile.patchCount}](PassContext& ctx) {
-            ctx.dispatch(shaders::kUpdateComp,
-                         {storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
-                          storage(gpu::kUpdateIrradiance, irradiance), storage(gpu::kUpdateRadiosity, radiosity),
-                          storage(gpu::kUpdatePartials, sums)},
-                         params, groupsFor(u64(partialCount) * gpu::kSolveGroup, gpu::kSolveGroup));
+        const Ref<Buffer> before = chebyshev ? pass.write(chebyshev->before, Use::ComputeReadWrite) : Ref<Buffer>{};
+        const gpu::UpdateParams params{chebyshev ? chebyshev->weight : glm::vec4(1.0f), tile.patchCount};
+        pass.record([=, accelerated = chebyshev.has_value()](PassContext& ctx) {
+            std::vector<Binding> bindings{storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
+                                          storage(gpu::kUpdateIrradiance, irradiance),
+                                          storage(gpu::kUpdateRadiosity, radiosity),
+                                          storage(gpu::kUpdatePartials, sums)};
+            if (accelerated) bindings.push_back(storage(gpu::kUpdateBefore, before));
+            ctx.dispatchBytes(accelerated ? shaders::kUpdateChebyshevComp : shaders::kUpdateComp, bindings,
+                              std::as_bytes(std::span(&params, 1)),
+                              groupsFor(u64(partialCount) * gpu::kSolveGroup, gpu::kSolveGroup), {});
         });
         return std::pair(radiosity, sums);
     });
-    light.radiosity = addPull(graph, tile, updated.first);
+    light.radiosity = updated.first;
+    light = addPullLight(graph, tile, light);
     const auto result = graph.addPass("residual", [&](PassBuilder& pass) {
         const auto from = pass.read(updated.second, Use::ComputeRead);
         const auto to = pass.write(residual, Use::ComputeWrite);
@@ -165,7 +205,7 @@ double residualOf(const gpu::ResidualRecord& sums)
     return worst;
 }
 
-double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums)
+double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRecord& sums, const glm::dvec4& radius)
 {
     constexpr double kSlowest = 0.9999;
     double worst = 0.0;
@@ -173,10 +213,21 @@ double remainingErrorOf(const gpu::ResidualRecord& before, const gpu::ResidualRe
     for (int c = 0; c < 4; ++c) {
         if (!(sums.change[c] > 0.0f && sums.scale[c] > 0.0f)) continue;
         const double residual = std::sqrt(double(sums.change[c]) / double(sums.scale[c]));
-        const double q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
+        double q = radius[c];
+        if (!(q > 0.0))
+            q = before.change[c] > 0.0f ? std::sqrt(double(sums.change[c]) / double(before.change[c])) : 1.0;
         worst = std::max(worst, residual * q / (1.0 - std::min(q, kSlowest)));
     }
     return worst;
+}
+
+glm::dvec4 errorBoundOf(const gpu::ResidualRecord& sums, const glm::dvec4& contraction)
+{
+    glm::dvec4 bound(std::numeric_limits<double>::infinity());
+    if (!isFinite(sums)) return bound;
+    for (int c = 0; c < 4; ++c)
+        if (contraction[c] < 1.0) bound[c] = double(sums.largest[c]) / (1.0 - contraction[c]);
+    return bound;
 }
 
 } // namespace helio

@@ -9,16 +9,24 @@ namespace helio {
 
 namespace {
 
+LinkRows linksOf(const TileView& tile)
+{
+    return {tile.linkRows, tile.linkColumns, tile.linkFactors, tile.linkMoments, u32(tile.patches.size())};
+}
+
 /// Does the gather that reads texel buffers serve: the radiosity and the longest row in one view each, few pages?
 bool texelsServe(const Context& context, const TileView& tile)
 {
-    u64 pairCount = 0, longestRow = 0;
-    for (u32 i = 0; i < tile.nodes.size(); ++i) {
-        const u64 pairs = (u64(tile.linkRows[i + 1]) - tile.linkRows[i] + 1) / 2;
-        pairCount += pairs;
-        longestRow = std::max(longestRow, pairs);
+    const LinkRows links = linksOf(tile);
+    u64 recordCount = 0, longestRow = 0;
+    for (u32 i = 0; i < links.rowCount(); ++i) {
+        const u64 records = recordsOfRow(links, i).all;
+        recordCount += records;
+        longestRow = std::max(longestRow, records);
     }
-    return context.texelsFit(tile.nodes.size()) && context.texelsFit(longestRow) && context.texelsFit(pairCount / 64);
+    const u64 slopes = links.linear() ? 2 * (tile.nodes.size() - tile.patches.size()) : 0;
+    return context.texelsFit(std::max<u64>(tile.nodes.size(), slopes)) && context.texelsFit(longestRow) &&
+           context.texelsFit(recordCount / 64);
 }
 
 } // namespace
@@ -46,9 +54,6 @@ u32 countStaticVertices(const TileView& tile)
 Result<TileTables> uploadTile(Context& context, const TileView& tile)
 {
     if (tile.patches.empty()) return Error{"the pack has no patches: there is nothing to light"};
-    if (!tile.linkMoments.empty())
-        return Error{
-            "the pack's links have moments (linear senders); this version reads constant senders only: bake it again"};
     TileTables t;
     t.patchCount = u32(tile.patches.size());
     t.nodeCount = u32(tile.nodes.size());
@@ -56,12 +61,14 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
         t.patchArea += double(patch.area);
         t.emits = t.emits || patch.emission != glm::vec4(0.0f);
     }
-    auto tree = buildTreeLevels(tile.nodes, tile.children, t.patchCount);
+    t.linear = !tile.linkMoments.empty();
+    t.contraction = contractionOf(tile);
+    auto tree = buildTreeLevels(tile.nodes, tile.children, t.patchCount, tile.childSlopes);
     if (!tree) return tree.error();
     t.texelLinks = texelsServe(context, tile);
-    const u64 pairsPerPage = t.texelLinks ? context.facts().maxTexelBufferElements
-                                          : context.facts().maxStorageBufferBytes / sizeof(gpu::LinkPairRecord);
-    auto links = packLinks(tile.linkRows, tile.linkColumns, tile.linkFactors, pairsPerPage);
+    const u64 recordsPerPage = t.texelLinks ? context.facts().maxTexelBufferElements
+                                            : context.facts().maxStorageBufferBytes / sizeof(gpu::LinkPairRecord);
+    auto links = packLinks(linksOf(tile), recordsPerPage);
     if (!links) return links.error();
 
     t.patches = makeBuffer(context, "patches", tile.patches);
@@ -69,14 +76,15 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
     t.parents = makeBuffer(context, "parents", tree->parents);
     t.childRows = makeBuffer(context, "child rows", tree->childRows);
     t.children = makeBuffer(context, "children", tree->children);
+    if (t.linear) t.childSlopes = makeBuffer(context, "child slopes", tree->childSlopes);
     t.levels = std::move(tree->levels);
 
+    t.linkOrder = makeBuffer(context, "link order", links->order);
     t.linkRows = makeBuffer(context, "link rows", links->rows);
     for (const LinkPage& page : links->pages)
-        t.links.push_back(
-            {page,
-             makeBuffer(context, "links",
-                        std::span<const gpu::LinkPairRecord>(links->pairs).subspan(page.pairFirst, page.pairCount))});
+        t.links.push_back({page, makeBuffer(context, "links",
+                                            std::span<const gpu::LinkPairRecord>(links->records)
+                                                .subspan(page.recordFirst, page.recordCount))});
 
     if (tile.skyColumns.size_bytes() > context.facts().maxStorageBufferBytes)
         return Error{concat(tile.skyColumns.size(), " sky links are more than one buffer of this device holds (",

@@ -6,6 +6,7 @@
 #include "city/format/pack.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/resources.h"
+#include "engine/stream/contraction.h"
 #include "engine/stream/draw_chunks.h"
 #include "engine/stream/link_packing.h"
 #include "engine/stream/tree_levels.h"
@@ -16,23 +17,27 @@ namespace helio {
 struct LinkPageBuffer
 {
     LinkPage page;
-    Buffer pairs; ///< LinkPairRecord
+    Buffer records; ///< see PackedLinks::records
 };
 
 /// A tile on the device, with what the host needs to drive it. Every buffer is read-only after the upload.
 struct TileTables
 {
     u32 patchCount = 0, nodeCount = 0;
+    u32 innerCount() const { return nodeCount - patchCount; }
     double patchArea = 0.0; ///< m2, of all patches
     bool emits = false;     ///< does any patch?
     Buffer patches;         ///< PatchRecord
     Buffer nodes;           ///< NodeRecord
     Buffer parents;         ///< u32 a node
     Buffer childRows, children;
+    Buffer childSlopes; ///< ChildSlopeRecord, parallel to children; linear senders only
     std::vector<TreeLevel> levels;
 
-    Buffer linkRows; ///< in pairs
+    bool linear = false;        ///< linear senders: links have moments, inner nodes have slopes
+    Buffer linkOrder, linkRows; ///< see PackedLinks
     std::vector<LinkPageBuffer> links;
+    Contraction contraction;
     bool texelLinks = false; ///< links and radiosity fit texel buffers: the faster gather
 
     std::vector<gpu::SkyPatchRecord> skyPatches;
@@ -43,8 +48,7 @@ struct TileTables
     std::vector<DrawChunk> chunks;
 };
 
-/// Puts a tile on the device. Errors: no patches; links that lean on linear senders, which this engine does not read; a
-/// tree or links that the device cannot take.
+/// Puts a tile on the device. Errors: no patches; a tree or links that the device cannot take.
 Result<TileTables> uploadTile(Context& context, const TileView& tile);
 
 /// Vertices of the static mesh: those that draws of instance 0 use, counted from vertex 0.

@@ -6,8 +6,10 @@
 namespace helio {
 
 Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::span<const u32> children,
-                                   u32 patchCount)
+                                   u32 patchCount, std::span<const gpu::ChildSlopeRecord> childSlopes)
 {
+    HELIO_CHECK(childSlopes.empty() || childSlopes.size() == children.size(), childSlopes.size(), " child slopes for ",
+                children.size(), " children");
     HELIO_CHECK(patchCount <= nodes.size(), patchCount, " patches in ", nodes.size(), " nodes");
     TreeLevels tree;
     tree.parents.reserve(nodes.size());
@@ -29,6 +31,7 @@ Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::
             height[i] = std::max(height[i], height[child] + 1);
             tree.children.push_back(
                 {child, node.area > 0.0f ? float(double(nodes[child].area) / double(node.area)) : 0.0f});
+            if (!childSlopes.empty()) tree.childSlopes.push_back(childSlopes[node.childBegin + k]);
         }
         tree.childRows.push_back(u32(tree.children.size()));
         if (i > patchCount && height[i] < height[i - 1])

@@ -20,15 +20,17 @@ struct TreeLevel
 /// The tree as push and pull read it.
 struct TreeLevels
 {
-    std::vector<TreeLevel> levels;          ///< upwards; level 0 is the parents of patches alone
-    std::vector<u32> parents;               ///< a node
-    std::vector<u32> childRows;             ///< inner nodes + 1 offsets into children
-    std::vector<gpu::ChildRecord> children; ///< in the pack's order
+    std::vector<TreeLevel> levels;                  ///< upwards; level 0 is the parents of patches alone
+    std::vector<u32> parents;                       ///< a node
+    std::vector<u32> childRows;                     ///< inner nodes + 1 offsets into children
+    std::vector<gpu::ChildRecord> children;         ///< in the pack's order
+    std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to them; empty: constant senders
 };
 
 /// Orders the tree by height (leaf 0, else 1 + the highest child). The nodes must be patches first, then inner nodes by
-/// rising height; error: they are not, or a child's parent is not the node that lists it.
+/// rising height; error: they are not, or a child's parent is not the node that lists it. childSlopes: one an entry of
+/// children, or none.
 Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::span<const u32> children,
-                                   u32 patchCount);
+                                   u32 patchCount, std::span<const gpu::ChildSlopeRecord> childSlopes = {});
 
 } // namespace helio

@@ -7,7 +7,6 @@
 
 #include "engine/gpu/transfer.h"
 #include "engine/graph/pass_context.h"
-#include "engine/stages/gather.h"
 #include "engine/stages/histogram.h"
 #include "engine/stages/sky_energy.h"
 #include "engine/stages/sun_energy.h"
@@ -26,18 +25,17 @@ Buffer makeZeros(Context& context, const char* name, u64 vectors)
 /// Share of the tolerance that the estimated error may take: it is an estimate, in the mean over the patches.
 constexpr double kErrorShare = 0.5;
 
-/// The stage of the report that a pass belongs to.
-const char* stageOf(const std::string& pass)
-{
-    constexpr std::array<std::pair<const char*, const char*>, 5> kStages{{{"sun raster", "1 sun raster"},
-                                                                          {"histogram", "2 histogram"},
-                                                                          {"sun ", "2 sun energy"},
-                                                                          {"sky ", "  sky energy"},
-                                                                          {"", "3 gather"}}};
-    for (const auto& [prefix, stage] : kStages)
-        if (pass.starts_with(prefix)) return stage;
-    return "";
-}
+constexpr const char* kRasterStage = "1 sun raster";
+constexpr const char* kHistogramStage = "2 histogram";
+constexpr const char* kSunStage = "2 sun energy";
+constexpr const char* kSkyStage = "  sky energy";
+constexpr const char* kGatherStage = "3 gather";
+constexpr std::array kStageOrder{kRasterStage, kHistogramStage, kSunStage, kSkyStage, kGatherStage};
+
+/// Sweeps of the power iteration that estimates the eigenvalues of a sweep, and the contraction number from which on it
+/// is worth the while.
+constexpr u32 kPowerSweeps = 8;
+constexpr double kSlowContraction = 0.5;
 
 template <class T> T readHost(const Buffer& host)
 {
@@ -49,6 +47,15 @@ template <class T> T readHost(const Buffer& host)
 
 } // namespace
 
+std::string stageOf(const std::string& pass, const std::string& other)
+{
+    constexpr std::array<std::pair<const char*, const char*>, 3> kStages{
+        {{"sun raster", kRasterStage}, {"histogram", kHistogramStage}, {"sun ", kSunStage}}};
+    for (const auto& [prefix, stage] : kStages)
+        if (pass.starts_with(prefix)) return stage;
+    return other;
+}
+
 LightSolver::LightSolver(Context& context, const TileTables& tile, const RendererOptions& options)
     : context_(context), tile_(tile), options_(options), recorder_(context),
       counts_(makeBuffer(context, "counts", std::vector<u32>(tile.patchCount, 0))),
@@ -57,6 +64,8 @@ LightSolver::LightSolver(Context& context, const TileTables& tile, const Rendere
       sky_(makeZeros(context, "E_sky", tile.patchCount)), b0_(makeZeros(context, "B0", tile.patchCount)),
       radiosity_(makeZeros(context, "B", tile.nodeCount)),
       irradiance_(makeZeros(context, "E_indirect", tile.nodeCount)),
+      slopes_(makeZeros(context, "slopes of B", tile.linear ? 2 * u64(tile.innerCount()) : 1)),
+      before_(makeZeros(context, "B before", 1)),
       partials_(context, {"residual parts", u64(updateGroups(tile)) * sizeof(gpu::ResidualRecord)}),
       residual_(context, {"residual", sizeof(gpu::ResidualRecord)}),
       residualHost_(context, {"residual on the host", sizeof(gpu::ResidualRecord), Memory::Readback}),
@@ -64,23 +73,54 @@ LightSolver::LightSolver(Context& context, const TileTables& tile, const Rendere
 {
     options_.sun.maxViewSize = std::min(options_.sun.maxViewSize, context.facts().maxImageDimension2D);
     options_.sun.maxViews = std::min(options_.sun.maxViews, context.facts().maxImageArrayLayers);
+    if (tile.contraction.largest() >= kSlowContraction) estimateSpectrum();
 }
 
-void LightSolver::run(FrameGraph& graph)
+void LightSolver::execute(FrameGraph& graph, bool timed)
 {
     const Status compiled = graph.compile(context_);
     HELIO_CHECK(compiled.ok(), compiled.ok() ? "" : compiled.error().message, "\n", graph.dump());
     recorder_.begin();
-    graph.execute(recorder_, true);
+    graph.execute(recorder_, timed);
     recorder_.submitAndWait();
+}
+
+void LightSolver::estimateSpectrum()
+{
+    const auto radiosities = [&] {
+        return asItems<glm::vec4>(download(context_, radiosity_, 0, u64(tile_.patchCount) * sizeof(glm::vec4)));
+    };
+    // B0 is zero as yet: a sweep is B = rho F B, and B starts as 1 everywhere.
+    upload(context_, radiosity_, std::vector<glm::vec4>(tile_.nodeCount, glm::vec4(1.0f)));
+    std::vector<glm::vec4> before;
+    for (u32 k = 0; k < kPowerSweeps; ++k) {
+        FrameGraph graph("power iteration");
+        LightRefs light = lightIn(graph);
+        if (k == 0) light = addPullLight(graph, tile_, light);
+        (void)addSweep(graph, tile_, light, graph.import(partials_), graph.import(residual_));
+        if (k + 1 == kPowerSweeps) before = radiosities();
+        execute(graph, false);
+    }
+    spectrum_ = spectralBounds(downloadItems<gpu::PatchRecord>(context_, tile_.patches), before, radiosities());
+    radius_ = chebyshevRadius(spectrum_, tile_.contraction.number);
+    if (radius_ != glm::dvec4(0.0)) before_ = makeZeros(context_, "B before", tile_.patchCount);
+}
+
+void LightSolver::run(FrameGraph& graph, const char* other)
+{
+    execute(graph, true);
     for (const PassTime& time : recorder_.times()) {
-        const char* stage = stageOf(time.name);
-        const auto found = std::find_if(report_.stages.begin(), report_.stages.end(),
-                                        [&](const PassTime& t) { return t.name == stage; });
-        if (found != report_.stages.end())
-            found->milliseconds += time.milliseconds;
+        const std::string stage = stageOf(time.name, other);
+        // In the order of the stages, whichever pass came first.
+        const auto rank = [](const std::string& name) {
+            return std::find(kStageOrder.begin(), kStageOrder.end(), name) - kStageOrder.begin();
+        };
+        const auto place = std::find_if(report_.stages.begin(), report_.stages.end(),
+                                        [&](const PassTime& t) { return rank(t.name) >= rank(stage); });
+        if (place != report_.stages.end() && place->name == stage)
+            place->milliseconds += time.milliseconds;
         else
-            report_.stages.push_back({stage, time.milliseconds});
+            report_.stages.insert(place, {stage, time.milliseconds});
     }
 }
 
@@ -130,7 +170,7 @@ void LightSolver::solveSun(const LightState& light)
     const SunEnergyRefs energy =
         addSunEnergy(graph, tile_, counts, graph.import(density_), {graph.import(sun_), graph.import(tally_)}, input);
     addReadback(graph, energy.tally, tallyHost_);
-    run(graph);
+    run(graph, kSunStage);
 
     const auto tally = readHost<gpu::SunTallyRecord>(tallyHost_);
     report_.litPatches = tally.lit;
@@ -152,38 +192,67 @@ void LightSolver::solveSky(const LightState& light)
         makeBuffer(context_, "sky radiance", sky.empty() ? uniformSky(tile_.skyPatches, light.dhi) : sky);
     FrameGraph graph("sky");
     (void)addSkyEnergy(graph, tile_, graph.import(radiance), graph.import(sky_));
-    run(graph);
+    run(graph, kSkyStage);
+}
+
+void LightSolver::takeGiven(const FirstLight& light)
+{
+    sunView_ = SunView{};
+    fitImages(); // pictures bind them, whatever they hold
+    upload(context_, sun_, light.sun);
+    upload(context_, sky_, light.sky);
+    report_.litPatches = report_.flaggedPatches = report_.excessPatches = 0;
+    report_.sunTexelX = report_.sunTexelY = 0.0;
+    report_.sunViews = report_.sunWidth = report_.sunHeight = 0;
+}
+
+LightRefs LightSolver::lightIn(FrameGraph& graph) const
+{
+    LightRefs light{graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_), {}};
+    if (tile_.linear) light.slopes = graph.import(slopes_);
+    return light;
+}
+
+void LightSolver::firstLight(const LightState& light, bool warm)
+{
+    FrameGraph graph("first light");
+    (void)addFirstLight(graph, tile_, {graph.import(sun_), graph.import(sky_)}, lightIn(graph), light.emission, warm);
+    run(graph, kGatherStage);
 }
 
 void LightSolver::sweep(const LightState& light, bool warm)
 {
-    {
-        FrameGraph graph("first light");
-        (void)addFirstLight(graph, tile_, {graph.import(sun_), graph.import(sky_)},
-                            {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)}, light.emission,
-                            warm);
-        run(graph);
-    }
+    firstLight(light, warm);
     const SolveOptions& to = options_.solve;
     const u32 limit = std::max(to.exactSweeps > 0 ? to.exactSweeps : to.maxSweeps, 1u);
+    // A number of sweeps asked for is a number of reflections.
+    const glm::dvec4 radius = to.exactSweeps > 0 ? glm::dvec4(0.0) : radius_;
+    report_.accelerated = radius != glm::dvec4(0.0);
+    report_.contraction = tile_.contraction.number;
+    glm::dvec4 weight(1.0);
     gpu::ResidualRecord before{};
     for (report_.sweeps = 0; report_.sweeps < limit;) {
         FrameGraph graph("sweep");
+        weight = chebyshevWeight(report_.sweeps, weight, radius);
+        std::optional<ChebyshevRefs> chebyshev;
+        if (report_.accelerated) chebyshev = {graph.import(before_), glm::vec4(weight)};
         const UpdateRefs result =
-            addSweep(graph, tile_, {graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_)},
-                     graph.import(partials_), graph.import(residual_));
+            addSweep(graph, tile_, lightIn(graph), graph.import(partials_), graph.import(residual_), chebyshev);
         addReadback(graph, result.residual, residualHost_);
-        run(graph);
+        run(graph, kGatherStage);
         ++report_.sweeps;
         const auto sums = readHost<gpu::ResidualRecord>(residualHost_);
         report_.residual = residualOf(sums);
+        report_.bound = errorBoundOf(sums, tile_.contraction.number);
         report_.meanRadiosity = glm::dvec4(sums.radiosity);
         // The residual is the defect of one step; where light is reflected many times the steps still to come add up.
-        const double error = remainingErrorOf(before, sums);
+        const double error = remainingErrorOf(before, sums, radius);
         if (to.exactSweeps == 0 && report_.residual <= to.residual && error <= kErrorShare * to.residual) break;
         before = sums;
     }
     report_.meanRadiosity /= tile_.patchArea;
+    // The last B leans away from the one before; the result is what E_indirect makes, as after a plain sweep.
+    if (report_.accelerated) firstLight(light, true);
 }
 
 const SolveReport& LightSolver::solve(const LightState& light)
@@ -194,10 +263,16 @@ const SolveReport& LightSolver::solve(const LightState& light)
     }
     report_.cached = false;
     report_.stages.clear();
-    const bool sunMoved = !solved_ || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni;
-    if (sunMoved) solveSun(light);
-    if (!solved_ || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance) solveSky(light);
-    sweep(light, solved_.has_value() && options_.solve.warmStart);
+    if (light.given) {
+        if (!solved_ || solved_->given != light.given) takeGiven(*light.given);
+    } else {
+        const bool fresh = !solved_ || solved_->given;
+        if (fresh || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni) solveSun(light);
+        if (fresh || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance) solveSky(light);
+    }
+    // Without light the solution is 0, which no residual relative to itself leads to.
+    const bool dark = !light.given && !light.sunUp() && light.dhi <= 0.0 && !(light.emission && tile_.emits);
+    sweep(light, solved_.has_value() && options_.solve.warmStart && !dark);
     solved_ = light;
     solvedWith_ = options_.solve;
     return report_;

@@ -3,12 +3,18 @@
 #include <optional>
 
 #include "engine/gpu/recorder.h"
+#include "engine/stages/acceleration.h"
 #include "engine/stages/draw_list.h"
+#include "engine/stages/gather.h"
 #include "engine/stages/sun_view.h"
 #include "engine/view/light_state.h"
 #include "engine/view/renderer.h"
 
 namespace helio {
+
+/// The stage of the report that a pass belongs to; `other`: that of passes which any stage may have (fills, read
+/// backs).
+std::string stageOf(const std::string& pass, const std::string& other);
 
 /// Stages 1 to 3 with the buffers that hold their results. Runs only what a change of the light asks for: the sun
 /// raster, the histogram and E_sun when the sun moved, E_sky when the sky changed, the sweeps when either did.
@@ -23,18 +29,24 @@ public:
     RendererOptions& options() { return options_; }
     const SunView& sunView() const { return sunView_; }
     const Image& shadow() const { return *shadow_; }
-    const Buffer& counts() const { return counts_; }       ///< u32 a patch
-    const Buffer& sun() const { return sun_; }             ///< vec4 a patch
-    const Buffer& sky() const { return sky_; }             ///< vec4 a patch
-    const Buffer& indirect() const { return irradiance_; } ///< vec4 a node; E_indirect at the patches
-    const Buffer& radiosity() const { return radiosity_; } ///< vec4 a node
+    const Buffer& counts() const { return counts_; }             ///< u32 a patch
+    const Buffer& sun() const { return sun_; }                   ///< vec4 a patch
+    const Buffer& sky() const { return sky_; }                   ///< vec4 a patch
+    const Buffer& indirect() const { return irradiance_; }       ///< vec4 a node; E_indirect at the patches
+    const Buffer& radiosity() const { return radiosity_; }       ///< vec4 a node
+    const SpectralBounds& spectrum() const { return spectrum_; } ///< zero where the contraction number is below a half
 
 private:
     void solveSun(const LightState& light);
     void solveSky(const LightState& light);
+    void takeGiven(const FirstLight& light);
+    void estimateSpectrum();
+    void firstLight(const LightState& light, bool warm);
     void sweep(const LightState& light, bool warm);
     void fitImages();
-    void run(FrameGraph& graph);
+    void execute(FrameGraph& graph, bool timed);
+    void run(FrameGraph& graph, const char* other);
+    LightRefs lightIn(FrameGraph& graph) const;
 
     Context& context_;
     const TileTables& tile_;
@@ -44,9 +56,11 @@ private:
     SolveOptions solvedWith_;
     SolveReport report_;
 
+    SpectralBounds spectrum_;
+    glm::dvec4 radius_{0.0}; ///< see chebyshevRadius
     SunView sunView_;
     std::optional<Image> ids_, shadow_;
-    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, partials_, residual_;
+    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, slopes_, before_, partials_, residual_;
     Buffer residualHost_, tallyHost_;
 };
 

@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
 #include <vector>
 
 #include "city/base/types.h"
 
 namespace helio {
 
+/// E_sun and E_sky of every patch, W/m2, from elsewhere.
+struct FirstLight
+{
+    std::vector<glm::vec4> sun, sky;
+};
+
 /// Everything that decides the light of a scene. Stages 1 to 3 run again only when it changed.
 struct LightState
 {
-    glm::dvec3 towardsSun{0.0, 0.0, 1.0}; ///< unit, tile frame
-    double dni = 800.0;                   ///< W/m2, >= 0; 0 also when the sun is below the horizon
-    double dhi = 120.0;                   ///< W/m2, >= 0, of the sky
-    std::vector<float> skyRadiance;       ///< W/m2/sr, one a sky patch; empty = the uniform sky of that dhi
-    bool emission = true;                 ///< patches emit their own light
+    glm::dvec3 towardsSun{0.0, 0.0, 1.0};    ///< unit, tile frame
+    double dni = 800.0;                      ///< W/m2, >= 0; 0 also when the sun is below the horizon
+    double dhi = 120.0;                      ///< W/m2, >= 0, of the sky
+    std::vector<float> skyRadiance;          ///< W/m2/sr, one a sky patch; empty = the uniform sky of that dhi
+    bool emission = true;                    ///< patches emit their own light
+    std::shared_ptr<const FirstLight> given; ///< stands in place of the sun raster and the sky links, if there is one
 
     /// Is there sunlight? A sun at or below the horizon gives none.
     bool sunUp() const { return dni > 0.0 && towardsSun.z > 0.0; }

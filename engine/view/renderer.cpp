@@ -57,6 +57,7 @@ struct Renderer::Impl
           viewRecord(c, {"view", sizeof(gpu::ViewRecord), Memory::Upload}), recorder(c),
           nothing(makeBuffer(c, "no corners", std::vector<glm::vec4>(2)))
     {
+        note = contractionNote(tile.contraction, solver.spectrum());
         groundZ = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
         for (const DrawChunk& chunk : tile.chunks) groundZ = std::min(groundZ, double(chunk.box.lo.z));
     }
@@ -91,6 +92,7 @@ struct Renderer::Impl
     double groundZ = 0.0; // m, the lowest point of what is drawn
     TileTables tile;
     LightSolver solver;
+    std::string note;
     LightState light;
     Buffer viewRecord;
     Recorder recorder;
@@ -145,6 +147,18 @@ void Renderer::setEmission(bool on)
 {
     impl_->light.emission = on;
 }
+void Renderer::setFirstLight(std::shared_ptr<const FirstLight> light)
+{
+    const u32 count = impl_->tile.patchCount;
+    HELIO_CHECK(!light || (light->sun.size() == count && light->sky.size() == count), count, " patches");
+    impl_->light.given = std::move(light);
+}
+
+const std::string& Renderer::note() const
+{
+    return impl_->note;
+}
+
 SolveOptions& Renderer::solveOptions()
 {
     return impl_->solver.options().solve;

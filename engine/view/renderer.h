@@ -23,7 +23,7 @@ struct SolveOptions
     double residual = 1e-3; ///< stop when the relative, area-weighted residual is at most this, and the estimate of
                             ///< what is still missing half of it (residualOf, remainingErrorOf)
     u32 maxSweeps = 100;    ///< stop after this many in any case, >= 1
-    u32 exactSweeps = 0;    ///< > 0: exactly this many, whatever the residual
+    u32 exactSweeps = 0;    ///< > 0: exactly this many plain sweeps, whatever the residual: so many reflections
     bool warmStart = false; ///< start from the last solution: fewer sweeps, but bits that depend on what came before
     bool operator==(const SolveOptions&) const = default;
 };
@@ -39,11 +39,16 @@ struct SolveReport
 {
     bool cached = false; ///< nothing changed: the last solution stands, the figures are its own
     u32 sweeps = 0;
-    double residual = 0.0;         ///< of the radiosity that the last sweep started from; the result's own is smaller
-    glm::dvec4 meanRadiosity{0.0}; ///< W/m2, area-weighted mean of B over all patches
-    u32 litPatches = 0;            ///< patches that face the sun
-    u32 flaggedPatches = 0;        ///< of them, lit by an ancestor's ratio: too few texels, or grazing
-    u32 excessPatches = 0;         ///< of them, more texels than their area explains; clamped
+    double residual = 0.0; ///< of the radiosity that the last sweep started from; the result's own is smaller
+    /// W/m2, a channel: no patch of that radiosity is further from the solution, rounding aside; the result's own are
+    /// off by at most the contraction number, and its E_indirect by the row sum, times this. Infinite from number 1 on.
+    glm::dvec4 bound{0.0};
+    glm::dvec4 contraction{0.0};             ///< see Contraction::number
+    bool accelerated = false;                ///< Chebyshev's semi-iteration (chebyshevRadius), in some channel at least
+    glm::dvec4 meanRadiosity{0.0};           ///< W/m2, area-weighted mean of B over all patches
+    u32 litPatches = 0;                      ///< patches that face the sun
+    u32 flaggedPatches = 0;                  ///< of them, lit by an ancestor's ratio: too few texels, or grazing
+    u32 excessPatches = 0;                   ///< of them, more texels than their area explains; clamped
     double sunTexelX = 0.0, sunTexelY = 0.0; ///< m
     u32 sunViews = 0, sunWidth = 0, sunHeight = 0;
     std::vector<PassTime> stages; ///< milliseconds on the device: sun raster, histogram, sun energy, sky, gather
@@ -93,8 +98,13 @@ public:
     /// dhi W/m2. `radiance`: W/m2/sr of each sky patch of the pack, which must add up to dhi; none = uniform.
     void setSky(double dhi, std::vector<float> radiance = {});
     void setEmission(bool on);
+    /// Light of every patch in place of what the sun raster and the sky links give; null = theirs again. Pictures have
+    /// no sun then: it is for tables.
+    void setFirstLight(std::shared_ptr<const FirstLight> light);
     SolveOptions& solveOptions();
     const LightState& light() const;
+    /// One sentence if the links may keep the sweeps from converging or their error from being bounded; else empty.
+    const std::string& note() const;
 
     /// Stages 1 to 3, if the light changed since the last call. Blocks until the device is done.
     const SolveReport& solve();

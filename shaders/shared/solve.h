@@ -25,6 +25,16 @@ struct LinkPairRecord {
 };
 HELIO_SIZE(LinkPairRecord, 16);
 
+// Linear senders: a row goes on, after the pairs of its links to patches, with a record like this for each link to an inner
+// node, in the same array. E += factor B + momentX slopeX + momentY slopeY.
+struct LinearLinkRecord {
+    uint column;           // sender, an inner node
+    float factor;
+    float momentX;
+    float momentY;
+};
+HELIO_SIZE(LinearLinkRecord, 16);
+
 // sky_energy: E_sky of each patch
 HELIO_CONSTANT uint kSkyRows = 0u;
 HELIO_CONSTANT uint kSkyColumns = 1u;
@@ -55,6 +65,9 @@ HELIO_SIZE(FirstLightParams, 16);
 HELIO_CONSTANT uint kPullRows = 0u;      // inner nodes: first child, count
 HELIO_CONSTANT uint kPullChildren = 1u;
 HELIO_CONSTANT uint kPullValues = 2u;
+// pull with linear senders: slope_parent = sum weight (offset_child X_child + T_child slope_child)
+HELIO_CONSTANT uint kPullChildSlopes = 3u; // ChildSlopeRecord, parallel to the children
+HELIO_CONSTANT uint kPullSlopes = 4u;      // vec4 pairs, an inner node
 // push: E_child += E_parent, one dispatch a level, downwards
 HELIO_CONSTANT uint kPushParents = 0u;
 HELIO_CONSTANT uint kPushValues = 1u;
@@ -66,36 +79,43 @@ struct LevelParams {       // push constant
 HELIO_SIZE(LevelParams, 12);
 
 // gather: E_i = sum factor B_column over the links of row i
-HELIO_CONSTANT uint kGatherRows = 0u;    // in pairs, nodeCount + 1
-HELIO_CONSTANT uint kGatherLinks = 1u;   // LinkPairRecord, from pair `pairFirst` on
+HELIO_CONSTANT uint kGatherRows = 0u;    // in records: nodeCount + 1; linear senders: 2 nodeCount + 1
+HELIO_CONSTANT uint kGatherLinks = 1u;   // LinkPairRecord (and LinearLinkRecord), from record `recordFirst` on
 HELIO_CONSTANT uint kGatherRadiosity = 2u;
 HELIO_CONSTANT uint kGatherIrradiance = 3u;
+HELIO_CONSTANT uint kGatherSlopes = 4u;  // linear senders: vec4 pairs, an inner node
+HELIO_CONSTANT uint kGatherOrder = 5u;   // receiver of each row
 struct GatherParams {      // push constant
     uint rowFirst;
     uint rowCount;
-    uint pairFirst;        // pair that is element 0 of the bound links
+    uint recordFirst;      // record that is element 0 of the bound links
+    uint patchCount;
 };
-HELIO_SIZE(GatherParams, 12);
+HELIO_SIZE(GatherParams, 16);
 
-// update: B = B0 + rho E at the patches, and the partial sums of the residual
+// update: B = B0 + rho E at the patches, and the partial sums of the residual. Chebyshev: B = w (B0 + rho E) + (1 - w)
+// B_before, with B_before the radiosity before the last sweep
 HELIO_CONSTANT uint kUpdateRun = 16u;    // patches a lane
 HELIO_CONSTANT uint kUpdatePatches = 0u;
 HELIO_CONSTANT uint kUpdateB0 = 1u;
 HELIO_CONSTANT uint kUpdateIrradiance = 2u;
 HELIO_CONSTANT uint kUpdateRadiosity = 3u;
 HELIO_CONSTANT uint kUpdatePartials = 4u;
+HELIO_CONSTANT uint kUpdateBefore = 5u;  // Chebyshev: patches
 struct UpdateParams {      // push constant
+    vec4 weight;           // Chebyshev: w, >= 1
     uint patchCount;
 };
-HELIO_SIZE(UpdateParams, 4);
+HELIO_SIZE(UpdateParams, 20);
 
-// Area-weighted sums over patches, per channel. Also the partial sums of one group.
+// Area-weighted sums over patches, per channel, with B_new = B0 + rho E. Also the partial sums of one group.
 struct ResidualRecord {
     vec4 change;           // sum A (B_new - B)^2: the defect of B
     vec4 scale;            // sum A (B_new - B0)^2
     vec4 radiosity;        // sum A B_new, W
+    vec4 largest;          // largest |B_new - B| of a patch, W/m2
 };
-HELIO_SIZE(ResidualRecord, 48);
+HELIO_SIZE(ResidualRecord, 64);
 
 // residual: the sum of the partials, in a fixed order
 HELIO_CONSTANT uint kResidualGroup = 256u;

@@ -8,6 +8,7 @@
 #include "city/base/hash.h"
 #include "engine/gpu/transfer.h"
 #include "engine/graph/pass_context.h"
+#include "engine/stages/acceleration.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage_twins.h"
 #include "tests/support/tile_builder.h"
@@ -19,6 +20,18 @@ namespace {
 constexpr double kUnit = 0x1.0p-24; // rounding of one float operation, relative
 
 const glm::vec4 kGrey(0.5f, 0.25f, 0.125f, 0.75f);
+
+/// What children add to slopes, of either sign: those of no geometry, but nothing in the pull relies on that. Slopes of
+/// values up to 1 stay below the number of levels.
+std::vector<gpu::ChildSlopeRecord> randomSlopes(Random& random, size_t count)
+{
+    std::vector<gpu::ChildSlopeRecord> slopes(count);
+    for (gpu::ChildSlopeRecord& s : slopes) {
+        for (float* value : {&s.offsetX, &s.offsetY}) *value = float(2.0 * random.uniform() - 1.0);
+        for (float* value : {&s.xx, &s.xy, &s.yx, &s.yy}) *value = float(random.uniform() - 0.5);
+    }
+    return slopes;
+}
 
 /// Patches and a tree over them: groups of five, groups of those, one root.
 TileBuilder makeTree(u32 patchCount, u64 seed)
@@ -32,8 +45,11 @@ TileBuilder makeTree(u32 patchCount, u64 seed)
     for (u32 i = 0; i < patchCount; ++i) level.push_back(i);
     while (level.size() > 1) {
         std::vector<u32> next;
-        for (size_t i = 0; i < level.size(); i += 5)
-            next.push_back(b.group({level.begin() + long(i), level.begin() + long(std::min(i + 5, level.size()))}));
+        for (size_t i = 0; i < level.size(); i += 5) {
+            const size_t end = std::min(i + 5, level.size());
+            next.push_back(
+                b.group({level.begin() + long(i), level.begin() + long(end)}, randomSlopes(random, end - i)));
+        }
         level = next;
     }
     return b;
@@ -54,6 +70,33 @@ std::vector<glm::vec4> randomLight(u32 count, u64 seed)
 std::vector<glm::dvec4> toDouble(const std::vector<glm::vec4>& v)
 {
     return {v.begin(), v.end()};
+}
+
+/// Means of all nodes, and slopes of the inner nodes as the device keeps them: two each.
+struct DeviceLight
+{
+    std::vector<glm::vec4> mean, slopes;
+};
+
+/// Random light; slopes of either sign, as large as the means.
+DeviceLight randomNodeLight(const TileView& view, u64 seed)
+{
+    DeviceLight light{randomLight(u32(view.nodes.size()), seed), {}};
+    if (view.linkMoments.empty()) return light;
+    light.slopes = randomLight(2 * u32(view.nodes.size() - view.patches.size()), seed + 1000);
+    for (glm::vec4& slope : light.slopes) slope = 2.0f * slope - glm::vec4(1000.0f);
+    return light;
+}
+
+twin::NodeLight toTwin(const TileView& view, const DeviceLight& light)
+{
+    twin::NodeLight out{toDouble(light.mean), std::vector<glm::dvec4>(light.mean.size(), glm::dvec4(0.0)), {}};
+    out.slopeY = out.slopeX;
+    for (size_t k = 0; k < light.slopes.size() / 2; ++k) {
+        out.slopeX[view.patches.size() + k] = glm::dvec4(light.slopes[2 * k]);
+        out.slopeY[view.patches.size() + k] = glm::dvec4(light.slopes[2 * k + 1]);
+    }
+    return out;
 }
 
 class GatherTest : public GpuTest
@@ -78,26 +121,28 @@ protected:
         return std::move(*tile);
     }
 
-    std::vector<glm::vec4> gather(const TileTables& tile, const std::vector<glm::vec4>& radiosity)
+    std::vector<glm::vec4> gather(const TileTables& tile, const DeviceLight& light)
     {
-        const Buffer from = makeBuffer(context(), "B", radiosity);
+        const Buffer from = makeBuffer(context(), "B", light.mean), slopes = makeBuffer(context(), "s", light.slopes);
         const Buffer to = makeBuffer(context(), "E", std::vector<glm::vec4>(tile.nodeCount, glm::vec4(-1.0f)));
         FrameGraph graph("gather");
-        (void)addGather(graph, tile, graph.import(from), graph.import(to));
+        (void)addGather(graph, tile, {{}, graph.import(from), graph.import(to), graph.import(slopes)});
         execute(graph);
         return downloadItems<glm::vec4>(context(), to);
     }
 
-    /// |device - twin| <= (row length + 2) 2^-24 sum |F B|, the bound of a sequential sum of rounded products.
-    void expectWithinBound(const TileView& view, const std::vector<glm::vec4>& radiosity)
+    /// |device - twin| <= (terms + 2) 2^-24 sum |term|, the bound of a sequential sum of rounded products; a link has
+    /// one term, F B, or three, with its moments.
+    void expectWithinBound(const TileView& view, const DeviceLight& light)
     {
-        const std::vector<twin::RowSum> expected = twin::gather(view, radiosity);
+        const std::vector<twin::RowSum> expected = twin::gather(view, toTwin(view, light));
+        const double terms = view.linkMoments.empty() ? 1.0 : 3.0;
         std::vector<std::vector<glm::vec4>> results;
         for (const bool texels : {true, false}) {
             const TileTables tile = upload(view, texels);
-            results.push_back(gather(tile, radiosity));
+            results.push_back(gather(tile, light));
             for (size_t i = 0; i < expected.size(); ++i) {
-                const double length = view.linkRows[i + 1] - view.linkRows[i];
+                const double length = terms * double(view.linkRows[i + 1] - view.linkRows[i]);
                 for (int c = 0; c < 4; ++c)
                     EXPECT_LE(std::abs(double(results.back()[i][c]) - expected[i].sum[c]),
                               (length + 2.0) * kUnit * expected[i].absolute[c])
@@ -117,59 +162,142 @@ TEST(StageTwins, GathersPullsAndPushesByHand)
     b.link(0, 1, 0.5f);
     b.link(0, root, 0.25f);
     const TileView view = b.view();
-    EXPECT_EQ(twin::gather(view, std::vector<glm::vec4>{glm::vec4(1), glm::vec4(2), glm::vec4(8)})[0].sum,
-              glm::dvec4(3.0));
+    EXPECT_EQ(twin::gather(view, {{glm::dvec4(1), glm::dvec4(2), glm::dvec4(8)}, {}, {}})[0].sum, glm::dvec4(3.0));
     EXPECT_EQ(twin::pullUp(view, std::vector<glm::dvec4>{glm::dvec4(1), glm::dvec4(5)})[root], glm::dvec4(4.0));
     EXPECT_EQ(twin::pushDown(view, std::vector<glm::dvec4>{glm::dvec4(1), glm::dvec4(2), glm::dvec4(10)})[1],
               glm::dvec4(12.0));
 }
 
+TEST(StageTwins, SlopesByHand)
+{
+    // Three patches of 1 m2 at x = 0, 1 and 3; the first two are a pair. Pair: centroid 0.5, deviation 0.5; root:
+    // centroid 4/3, deviation sqrt(14)/3. The coordinate of a point in either: (x - centroid) / deviation.
+    TileBuilder b;
+    b.linear = true;
+    for (int i = 0; i < 3; ++i) b.patch({0, 0, 1}, 1.0f, kGrey);
+    const float s = std::sqrt(14.0f) / 3.0f, third = 1.0f / 3.0f;
+    const auto child = [](float offset, float scale) { return gpu::ChildSlopeRecord{offset, 0, scale, 0, 0, 0}; };
+    const u32 pair = b.group({0, 1}, {child(-1, 0), child(1, 0)});
+    const u32 root = b.group({pair, 2}, {child((0.5f - 4 * third) / s, 0.5f / s), child((3 - 4 * third) / s, 0)});
+    b.link(2, pair, 0.5f, {0.25f, 100.0f});
+    b.link(2, root, 0.0f, {1.0f, 0.0f});
+    const TileView view = b.view();
+    // B = 6 + 2 x is 6 and 8 on the pair: mean 7, slope 1; on the root 26/3, slope 2 sqrt(14)/3.
+    const twin::NodeLight light =
+        twin::pullLight(view, std::vector<glm::dvec4>{glm::dvec4(6), glm::dvec4(8), glm::dvec4(12)});
+    EXPECT_NEAR(light.mean[pair].x, 7.0, 1e-12);
+    EXPECT_NEAR(light.slopeX[pair].x, 1.0, 1e-6);
+    EXPECT_NEAR(light.mean[root].x, 26.0 / 3.0, 1e-6);
+    EXPECT_NEAR(light.slopeX[root].x, 2.0 * std::sqrt(14.0) / 3.0, 1e-6);
+    EXPECT_EQ(light.slopeY[root], glm::dvec4(0.0));
+    EXPECT_NEAR(twin::gather(view, light)[2].sum.x, 0.5 * 7 + 0.25 + 2.0 * std::sqrt(14.0) / 3.0, 1e-5);
+}
+
+/// Links of either kind; only those to inner nodes should take notice of the moments.
+void addLink(TileBuilder& b, Random& random, u32 receiver, u32 sender, double largest)
+{
+    const auto signedUpTo = [&](double limit) { return float(limit * (2.0 * random.uniform() - 1.0)); };
+    const float x = signedUpTo(largest), y = signedUpTo(largest);
+    b.link(receiver, sender, float(random.uniform() * largest), {x, y});
+}
+
 TEST_F(GatherTest, RowsOfAnyLength)
 {
-    TileBuilder b = makeTree(1000, 1);
-    Random random(2);
-    const u32 nodes = u32(b.patches.size() + b.groups.size());
-    // Row 0 stays empty, row 1 has one link, row 2 a hundred thousand; the others a few, inner nodes too.
-    b.link(1, 7, 0.3f);
-    for (u32 k = 0; k < 100000; ++k) b.link(2, u32(random.uniform() * nodes), float(random.uniform() * 1e-4));
-    for (u32 i = 3; i < nodes; ++i)
-        for (u32 k = 0; k < i % 37; ++k) b.link(i, u32(random.uniform() * nodes), float(random.uniform()));
-    expectWithinBound(b.view(), randomLight(nodes, 3));
+    for (const bool linear : {false, true}) {
+        TileBuilder b = makeTree(1000, 1);
+        b.linear = linear;
+        Random random(2);
+        const u32 nodes = u32(b.patches.size() + b.groups.size());
+        const auto anyNode = [&] { return u32(random.uniform() * nodes); };
+        // Row 0 stays empty, row 1 has one link, row 2 a hundred thousand, rows 3 and 4 one kind of sender alone; the
+        // others a few, inner nodes too.
+        b.link(1, 7, 0.3f);
+        for (u32 k = 0; k < 100000; ++k) addLink(b, random, 2, anyNode(), 1e-4);
+        for (u32 k = 0; k < 7; ++k) addLink(b, random, 3, 100 + k, 1.0);
+        for (u32 k = 0; k < 7; ++k) addLink(b, random, 4, 1000 + k, 1.0);
+        for (u32 i = 5; i < nodes; ++i)
+            for (u32 k = 0; k < i % 37; ++k) addLink(b, random, i, anyNode(), 1.0);
+        expectWithinBound(b.view(), randomNodeLight(b.view(), 3));
+    }
 }
 
 TEST_F(GatherTest, EmptyRowIsDarkAndLinkOfOneRowIsExact)
 {
-    TileBuilder b;
-    b.patch({0, 0, 1}, 1.0f, kGrey);
-    b.patch({0, 0, 1}, 1.0f, kGrey);
-    b.link(1, 0, 0.3f);
-    const std::vector<glm::vec4> e = gather(upload(b.view(), true), {glm::vec4(3, 5, 7, 11), glm::vec4(1e30f)});
-    EXPECT_EQ(e[0], glm::vec4(0.0f));
-    EXPECT_EQ(e[1], 0.3f * glm::vec4(3, 5, 7, 11));
+    for (const bool linear : {false, true}) {
+        TileBuilder b;
+        b.linear = linear;
+        for (int i = 0; i < 3; ++i) b.patch({0, 0, 1}, 1.0f, kGrey);
+        const u32 root = b.group({0, 1});
+        b.link(1, 0, 0.3f, {7.0f, 7.0f}); // a patch has no slope
+        b.link(2, root, 0.25f, {0.5f, -2.0f});
+        const DeviceLight light{{glm::vec4(3, 5, 7, 11), glm::vec4(1e30f), glm::vec4(1e30f), glm::vec4(1, 2, 3, 4)},
+                                {glm::vec4(2, 4, 6, 8), glm::vec4(1, 0, -1, 2)}};
+        const std::vector<glm::vec4> e = gather(upload(b.view(), true), light);
+        EXPECT_EQ(e[0], glm::vec4(0.0f));
+        EXPECT_EQ(e[1], 0.3f * glm::vec4(3, 5, 7, 11));
+        const glm::vec4 mean = 0.25f * glm::vec4(1, 2, 3, 4), slopes = glm::vec4(1, 2, 3, 4) - glm::vec4(2, 0, -2, 4);
+        EXPECT_EQ(e[2], linear ? mean + slopes : mean);
+    }
 }
 
 TEST_F(GatherTest, PagesOfLinks)
 {
-    TileBuilder b = makeTree(300, 4);
-    Random random(5);
-    const u32 nodes = u32(b.patches.size() + b.groups.size());
-    for (u32 i = 0; i < nodes; ++i)
-        for (u32 k = 0; k < i % 11; ++k) b.link(i, u32(random.uniform() * nodes), float(random.uniform()));
-    const TileView view = b.view();
-    const std::vector<glm::vec4> light = randomLight(nodes, 6);
-    TileTables tile = upload(view, true);
-    const std::vector<glm::vec4> whole = gather(tile, light);
+    for (const bool linear : {false, true}) {
+        TileBuilder b = makeTree(300, 4);
+        b.linear = linear;
+        Random random(5);
+        const u32 nodes = u32(b.patches.size() + b.groups.size());
+        for (u32 i = 0; i < nodes; ++i)
+            for (u32 k = 0; k < i % 11; ++k) addLink(b, random, i, u32(random.uniform() * nodes), 1.0);
+        const TileView view = b.view();
+        const DeviceLight light = randomNodeLight(view, 6);
+        TileTables tile = upload(view, true);
+        const std::vector<glm::vec4> whole = gather(tile, light);
 
-    const auto packed = packLinks(view.linkRows, view.linkColumns, view.linkFactors, 64);
-    ASSERT_TRUE(packed.ok());
-    ASSERT_GT(packed->pages.size(), 5u);
-    tile.links.clear();
-    for (const LinkPage& page : packed->pages)
-        tile.links.push_back(
-            {page,
-             makeBuffer(context(), "page",
-                        std::span<const gpu::LinkPairRecord>(packed->pairs).subspan(page.pairFirst, page.pairCount))});
-    EXPECT_EQ(gather(tile, light), whole);
+        const auto packed =
+            packLinks({view.linkRows, view.linkColumns, view.linkFactors, view.linkMoments, tile.patchCount}, 64);
+        ASSERT_TRUE(packed.ok());
+        ASSERT_GT(packed->pages.size(), 5u);
+        tile.links.clear();
+        for (const LinkPage& page : packed->pages)
+            tile.links.push_back({page, makeBuffer(context(), "page",
+                                                   std::span<const gpu::LinkPairRecord>(packed->records)
+                                                       .subspan(page.recordFirst, page.recordCount))});
+        EXPECT_EQ(gather(tile, light), whole);
+        tile.texelLinks = false;
+        EXPECT_EQ(gather(tile, light), whole);
+    }
+}
+
+TEST_F(GatherTest, PullsSlopesUp)
+{
+    constexpr u32 kPatches = 2000;
+    TileBuilder b = makeTree(kPatches, 7);
+    b.linear = true;
+    b.link(0, kPatches, 0.5f, {0.25f, 0.0f}); // senders are linear where links have moments
+    const TileView view = b.view();
+    const TileTables tile = upload(view, true);
+    ASSERT_TRUE(tile.linear);
+    const std::vector<glm::vec4> light = randomLight(tile.nodeCount, 8);
+    const Buffer means = makeBuffer(context(), "B", light);
+    const Buffer slopes = makeBuffer(context(), "slopes", std::vector<glm::vec4>(2 * tile.innerCount()));
+    FrameGraph graph("pull");
+    (void)addPullLight(graph, tile, {{}, graph.import(means), {}, graph.import(slopes)});
+    execute(graph);
+    const auto pulled = downloadItems<glm::vec4>(context(), means),
+               pulledSlopes = downloadItems<glm::vec4>(context(), slopes);
+    const twin::NodeLight expected = twin::pullLight(view, toDouble({light.begin(), light.begin() + kPatches}));
+    ASSERT_EQ(tile.levels.size(), 5u);
+    // On level k slopes stay below 1000 k. They take over the error of the level below, that of the means below (7
+    // roundings a level) and some 20 roundings of their own: 1000 sum (7 (k - 1) + 20 k) units over five levels.
+    constexpr double kSlopeTolerance = 370.0 * 1000.0 * kUnit;
+    for (u32 i = kPatches; i < tile.nodeCount; ++i) {
+        EXPECT_LE(std::abs(double(pulled[i].x) - expected.mean[i].x), 35.0 * kUnit * expected.mean[i].x) << i;
+        for (int c = 0; c < 4; ++c) {
+            EXPECT_NEAR(pulledSlopes[2 * (i - kPatches)][c], expected.slopeX[i][c], kSlopeTolerance) << i;
+            EXPECT_NEAR(pulledSlopes[2 * (i - kPatches) + 1][c], expected.slopeY[i][c], kSlopeTolerance) << i;
+        }
+    }
 }
 
 TEST_F(GatherTest, PullsMeansUpAndPushesSumsDown)
@@ -203,21 +331,33 @@ protected:
         gpu::ResidualRecord sums{};
     };
 
-    Result sweep(const TileView& view, const std::vector<glm::vec4>& sun, const std::vector<glm::vec4>& sky, u32 sweeps)
+    Result sweep(const TileView& view, const std::vector<glm::vec4>& sun, const std::vector<glm::vec4>& sky, u32 sweeps,
+                 const glm::dvec4& radius = glm::dvec4(0.0))
     {
         const TileTables tile = upload(view, true);
         const std::vector<glm::vec4> zeros(tile.nodeCount, glm::vec4(0.0f));
         const Buffer eSun = makeBuffer(context(), "sun", sun), eSky = makeBuffer(context(), "sky", sky);
         const Buffer b0 = makeBuffer(context(), "B0", zeros), radiosity = makeBuffer(context(), "B", zeros);
         const Buffer irradiance = makeBuffer(context(), "E", zeros);
+        const Buffer slopes = makeBuffer(context(), "slopes", std::vector<glm::vec4>(2 * tile.innerCount()));
         const Buffer partials = makeBuffer(context(), "partials", std::vector<gpu::ResidualRecord>(updateGroups(tile)));
         const Buffer residual = makeBuffer(context(), "residual", std::vector<gpu::ResidualRecord>(1));
         FrameGraph graph("sweeps");
-        LightRefs light =
-            addFirstLight(graph, tile, {graph.import(eSun), graph.import(eSky)},
-                          {graph.import(b0), graph.import(radiosity), graph.import(irradiance)}, true, false);
+        LightRefs light = addFirstLight(
+            graph, tile, {graph.import(eSun), graph.import(eSky)},
+            {graph.import(b0), graph.import(radiosity), graph.import(irradiance), graph.import(slopes)}, true, false);
         UpdateRefs out{light, graph.import(residual)};
-        for (u32 k = 0; k < sweeps; ++k) out = addSweep(graph, tile, out.light, graph.import(partials), out.residual);
+        // What lies in `before` at first is nobody's light and must not matter.
+        const Buffer before =
+            makeBuffer(context(), "B before",
+                       std::vector<glm::vec4>(tile.patchCount, glm::vec4(std::numeric_limits<float>::quiet_NaN())));
+        glm::dvec4 weight(1.0);
+        for (u32 k = 0; k < sweeps; ++k) {
+            weight = chebyshevWeight(k, weight, radius);
+            std::optional<ChebyshevRefs> chebyshev;
+            if (radius != glm::dvec4(0.0)) chebyshev = {graph.import(before), glm::vec4(weight)};
+            out = addSweep(graph, tile, out.light, graph.import(partials), out.residual, chebyshev);
+        }
         execute(graph);
         Result result{
             downloadItems<glm::vec4>(context(), irradiance), downloadItems<glm::vec4>(context(), radiosity), {}};
@@ -229,41 +369,76 @@ protected:
 };
 
 /// Random links whose rows sum to at most one, on every node of a tree.
-TileBuilder makeLinked(u32 patchCount)
+TileBuilder makeLinked(u32 patchCount, bool linear = false)
 {
     TileBuilder b = makeTree(patchCount, 9);
+    b.linear = linear;
     Random random(10);
     const u32 nodes = u32(b.patches.size() + b.groups.size());
     for (u32 i = 0; i < nodes; ++i)
-        for (u32 k = 0; k < 12; ++k) b.link(i, u32(random.uniform() * nodes), float(random.uniform() / 60.0));
+        for (u32 k = 0; k < 12; ++k) {
+            const u32 sender = u32(random.uniform() * nodes);
+            const float factor = float(random.uniform() / 60.0);
+            b.link(i, sender, factor, factor * glm::vec2(0.5f, -0.25f));
+        }
     return b;
 }
 
 TEST_F(SweepTest, AgreesWithTheTwin)
 {
-    TileBuilder b = makeLinked(3000);
+    for (const bool linear : {false, true}) {
+        TileBuilder b = makeLinked(3000, linear);
+        const TileView view = b.view();
+        const auto sun = randomLight(3000, 11), sky = randomLight(3000, 12);
+        std::vector<glm::dvec4> b0;
+        for (u32 i = 0; i < 3000; ++i)
+            b0.push_back(glm::dvec4(view.patches[i].emission) +
+                         glm::dvec4(view.patches[i].rho) * (glm::dvec4(sun[i]) + glm::dvec4(sky[i])));
+        for (const u32 sweeps : {1u, 4u}) {
+            const twin::Solution expected = twin::solve(view, b0, sweeps);
+            const Result result = sweep(view, sun, sky, sweeps);
+            for (u32 i = 0; i < 3000; ++i)
+                for (int c = 0; c < 4; ++c) {
+                    // All terms are positive, so errors stay relative: about 60 roundings a sweep.
+                    EXPECT_NEAR(result.irradiance[i][c], expected.indirect[i][c],
+                                sweeps * 60 * kUnit * expected.indirect[i][c]);
+                    EXPECT_NEAR(result.radiosity[i][c], expected.radiosity[i][c],
+                                sweeps * 60 * kUnit * expected.radiosity[i][c]);
+                }
+            // The change of a late sweep is a small difference of rounded values: 1e-4 of it is far from a wrong norm.
+            EXPECT_NEAR(residualOf(result.sums), expected.residual, 1e-4 * expected.residual);
+            for (int c = 0; c < 4; ++c)
+                EXPECT_NEAR(double(result.sums.largest[c]), expected.largest[c], 1e-3 * expected.largest[c]);
+            double mean = 0.0;
+            for (u32 i = 0; i < 3000; ++i) mean += double(view.patches[i].area) * expected.radiosity[i].w;
+            EXPECT_NEAR(double(result.sums.radiosity.w), mean, 1e-5 * mean);
+        }
+    }
+}
+
+TEST_F(SweepTest, ChebyshevAgreesWithTheTwin)
+{
+    // Two channels are accelerated, two are not.
+    TileBuilder b = makeLinked(3000, true);
     const TileView view = b.view();
     const auto sun = randomLight(3000, 11), sky = randomLight(3000, 12);
     std::vector<glm::dvec4> b0;
     for (u32 i = 0; i < 3000; ++i)
         b0.push_back(glm::dvec4(view.patches[i].emission) +
                      glm::dvec4(view.patches[i].rho) * (glm::dvec4(sun[i]) + glm::dvec4(sky[i])));
-    for (const u32 sweeps : {1u, 4u}) {
-        const twin::Solution expected = twin::solve(view, b0, sweeps);
-        const Result result = sweep(view, sun, sky, sweeps);
+    const glm::dvec4 radius(0.9, 0.0, 0.6, 0.0);
+    for (const u32 sweeps : {1u, 2u, 5u}) {
+        const twin::Solution expected = twin::solve(view, b0, sweeps, radius), plain = twin::solve(view, b0, sweeps);
+        const Result result = sweep(view, sun, sky, sweeps, radius);
+        double apart = 0.0;
         for (u32 i = 0; i < 3000; ++i)
             for (int c = 0; c < 4; ++c) {
-                // All terms are positive, so errors stay relative: about 60 roundings a sweep.
-                EXPECT_NEAR(result.irradiance[i][c], expected.indirect[i][c],
-                            sweeps * 60 * kUnit * expected.indirect[i][c]);
+                // The weights are below 2: the terms are not all positive, but their sizes add up to three times B.
                 EXPECT_NEAR(result.radiosity[i][c], expected.radiosity[i][c],
-                            sweeps * 60 * kUnit * expected.radiosity[i][c]);
+                            3.0 * sweeps * 60 * kUnit * expected.radiosity[i][c]);
+                apart = std::max(apart, std::abs(plain.radiosity[i][c] - expected.radiosity[i][c]));
             }
-        // The change of a late sweep is a small difference of rounded values: 1e-4 of it is far from a wrong norm.
-        EXPECT_NEAR(residualOf(result.sums), expected.residual, 1e-4 * expected.residual);
-        double mean = 0.0;
-        for (u32 i = 0; i < 3000; ++i) mean += double(view.patches[i].area) * expected.radiosity[i].w;
-        EXPECT_NEAR(double(result.sums.radiosity.w), mean, 1e-5 * mean);
+        EXPECT_EQ(apart > 1.0, sweeps > 1) << "the first sweep is plain, the others are not";
     }
 }
 
@@ -280,7 +455,7 @@ TEST(Residual, LightBeyondAFloatNeverCountsAsConverged)
 
 TEST_F(SweepTest, SameBytesTwice)
 {
-    TileBuilder b = makeLinked(5000);
+    TileBuilder b = makeLinked(5000, true);
     const auto sun = randomLight(5000, 13), sky = randomLight(5000, 14);
     const Result first = sweep(b.view(), sun, sky, 3), second = sweep(b.view(), sun, sky, 3);
     EXPECT_EQ(std::memcmp(first.irradiance.data(), second.irradiance.data(), first.irradiance.size() * 16), 0);

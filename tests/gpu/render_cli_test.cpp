@@ -3,6 +3,7 @@
 // and leaves nothing behind; good input gives the pictures and tables that were asked for, twice the same bytes.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -172,8 +173,8 @@ TEST_F(RenderCli, RefusesDamagedPacks)
     const std::string index = bytesOf("p/index"), tile = bytesOf("p/tile-0000");
     std::string flipped = tile, version = tile, indexVersion = index;
     flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
-    version[8] = 2;
-    indexVersion[indexVersion.find("1\n")] = '2';
+    version[8] = 9;
+    indexVersion[indexVersion.find("2\n")] = '9';
     struct Damage
     {
         std::string index, tile;
@@ -183,8 +184,8 @@ TEST_F(RenderCli, RefusesDamagedPacks)
     for (const Damage& damage :
          {Damage{index, tile.substr(0, tile.size() - 1), "its header says"},
           Damage{index, tile.substr(0, 40), "ends inside the header"}, Damage{index, "", "tile-0000"},
-          Damage{index, flipped, "the checksum"}, Damage{index, version, "version 2"},
-          Damage{indexVersion, tile, "version 2"}, Damage{index.substr(0, 99), tile, "checksum line"},
+          Damage{index, flipped, "the checksum"}, Damage{index, version, "version 9"},
+          Damage{indexVersion, tile, "version 9"}, Damage{index.substr(0, 99), tile, "checksum line"},
           Damage{"{}", tile, "this is not the index"}}) {
         put("q/index", damage.index);
         put("q/tile-0000", damage.tile);
@@ -291,6 +292,118 @@ TEST_F(RenderCli, TwoRunsGiveTheSameBytes)
     ASSERT_EQ(render(kQuick + "-o c.png --table c.csv --sun 120,30").exitCode, 0);
     for (const char* type : {".png", ".csv"})
         EXPECT_FALSE(bytesOf(concat("a", type)) == bytesOf(concat("c", type))) << type;
+}
+
+TEST_F(RenderCli, PrintsBoundAndEnergyBalance)
+{
+    const RunResult result = render("p --sun-texel 0.25 --table a.csv");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    double solar = -1.0, number = -1.0;
+    const char* bound = std::strstr(result.out.c_str(), "further from the links' solution than ");
+    ASSERT_NE(bound, nullptr) << result.out;
+    ASSERT_EQ(std::sscanf(bound, "further from the links' solution than %lf W/m2", &solar), 1);
+    EXPECT_GT(solar, 0.0);
+    EXPECT_LT(solar, 1.0);
+    const char* contraction = std::strstr(bound, "contraction number ");
+    ASSERT_NE(contraction, nullptr);
+    ASSERT_EQ(std::sscanf(contraction, "contraction number %lf", &number), 1);
+    EXPECT_GT(number, 0.0);
+    EXPECT_LT(number, 1.0);
+
+    // The figures add up to what comes in.
+    const char* energy = std::strstr(result.out.c_str(), "Energy (solar)");
+    ASSERT_NE(energy, nullptr) << result.out;
+    double in, sun, sky, emitters, absorbed, toSky, away, missing;
+    ASSERT_EQ(
+        std::sscanf(energy,
+                    "Energy (solar): in %lf W = sun %lf %% + sky %lf %% + emitters %lf %%; absorbed %lf %%, out to "
+                    "the sky %lf %%, out of the scene %lf %%; unexplained %lf %%",
+                    &in, &sun, &sky, &emitters, &absorbed, &toSky, &away, &missing),
+        8)
+        << energy;
+    EXPECT_NEAR(sun + sky + emitters, 100.0, 0.02);
+    EXPECT_NEAR(absorbed + toSky + away + missing, 100.0, 0.03);
+    EXPECT_LT(std::abs(missing), 0.1);
+    for (const double share : {sun, sky, absorbed, toSky, away}) EXPECT_GT(share, 1.0);
+    EXPECT_EQ(result.out.find("Note:"), std::string::npos);
+}
+
+TEST_F(RenderCli, FirstLightOfATableStandsInPlaceOfTheRaster)
+{
+    const auto afterComment = [&](const std::string& name) {
+        const std::string text = bytesOf(name);
+        return text.substr(text.find('\n') + 1);
+    };
+    ASSERT_EQ(render("p --sun 120,35 --sun-texel 0.25 --table a.csv").exitCode, 0);
+    const RunResult again = render("p --sun 300,10 --dni 1 --first-light a.csv --table b.csv");
+    ASSERT_EQ(again.exitCode, 0) << again.err;
+    EXPECT_EQ(again.out.find("Sun raster"), std::string::npos) << again.out;
+    EXPECT_EQ(afterComment("a.csv"), afterComment("b.csv")) << "the same first light, the same links";
+    EXPECT_NE(bytesOf("b.csv").find("first light of a.csv"), std::string::npos);
+
+    // Twice the first light and no emitters: twice the light.
+    const std::vector<std::string> lines = split(afterComment("a.csv"), '\n');
+    std::string twice = lines[0] + "\n";
+    for (size_t i = 1; i < lines.size(); ++i) {
+        const std::vector<std::string> cells = split(lines[i], ',');
+        for (size_t k = 0; k < cells.size(); ++k)
+            twice += concat(k > 0 ? "," : "", k >= 3 && k < 11 ? std::to_string(2.0 * std::stod(cells[k])) : cells[k]);
+        twice += "\n";
+    }
+    put("twice.csv", twice);
+    ASSERT_EQ(render("p --no-emission --first-light a.csv --table one.csv").exitCode, 0);
+    ASSERT_EQ(render("p --no-emission --first-light twice.csv --table two.csv").exitCode, 0);
+    const std::vector<std::string> one = split(afterComment("one.csv"), '\n'),
+                                   two = split(afterComment("two.csv"), '\n');
+    ASSERT_EQ(one.size(), two.size());
+    for (size_t i = 1; i < one.size(); ++i) {
+        const double single = std::stod(split(one[i], ',').back()), doubled = std::stod(split(two[i], ',').back());
+        EXPECT_NEAR(doubled, 2.0 * single, 1e-4 * single + 1e-5);
+    }
+
+    // Bad tables: one line, nothing written.
+    const std::string header = lines[0] + "\n";
+    put("short.csv", header + lines[1] + "\n");
+    expectRefusal("p --first-light short.csv --table t.csv", "short.csv: 1 rows, but the pack has");
+    put("empty.csv", "");
+    expectRefusal("p --first-light empty.csv --table t.csv", "empty.csv: no header line");
+    expectRefusal("p --first-light none.csv --table t.csv", "none.csv");
+    std::string text = afterComment("a.csv");
+    put("column.csv", "x" + text);
+    expectRefusal("p --first-light column.csv --table t.csv", "no columns patch and area");
+    std::string named = text;
+    named.replace(named.find("E_sky_b"), 7, "E_sky_x");
+    put("named.csv", named);
+    expectRefusal("p --first-light named.csv --table t.csv", "no column E_sky_b");
+    std::vector<std::string> rows = lines;
+    const auto putRows = [&](const char* name) {
+        std::string joined;
+        for (const std::string& row : rows) joined += row + "\n";
+        put(name, joined);
+    };
+    std::swap(rows[2], rows[3]);
+    putRows("order.csv");
+    expectRefusal("p --first-light order.csv --table t.csv", "row 1 is patch 2");
+    rows = lines;
+    std::vector<std::string> cells = split(rows[1], ',');
+    const std::string area = cells[2];
+    const auto putCells = [&](const char* name) {
+        rows[1] = cells[0];
+        for (size_t k = 1; k < cells.size(); ++k) rows[1] += "," + cells[k];
+        putRows(name);
+    };
+    cells[2] = concat(1.01 * std::stod(area));
+    putCells("area.csv");
+    expectRefusal("p --first-light area.csv --table t.csv", "row 0 is patch 0 of");
+    cells[2] = area;
+    cells[3] = "-1";
+    putCells("negative.csv");
+    expectRefusal("p --first-light negative.csv --table t.csv", "patch 0: E_sun_r is -1");
+    cells[3] = "nan";
+    putCells("nan.csv");
+    expectRefusal("p --first-light nan.csv --table t.csv", "nan.csv:2: column E_sun_r");
+    expectRefusal("p --first-light a.csv -o a.png", "--first-light");
+    expectRefusal("p --first-light a.csv", "nothing to do");
 }
 
 TEST_F(RenderCli, BenchReports)

@@ -10,7 +10,13 @@ add_executable(gpu_stages_test
 target_link_libraries(gpu_stages_test PRIVATE helio_gpu_fixture stage_test_support engine_view GTest::gtest_main)
 gtest_discover_tests(gpu_stages_test PROPERTIES LABELS gpu)
 
+# The solvers of engine and baker and their twin, on the same tree and links.
+add_executable(solver_agreement_test gpu/solver_agreement_test.cpp numeric/fixtures.cpp)
+target_link_libraries(solver_agreement_test PRIVATE helio_gpu_fixture stage_test_support engine_stages city_light
+                      GTest::gtest_main)
+gtest_discover_tests(solver_agreement_test PROPERTIES LABELS gpu)
+
 # What the stages decide without a device.
-add_executable(engine_unit_test unit/engine_tables_test.cpp unit/engine_view_test.cpp)
+add_executable(engine_unit_test unit/engine_solver_test.cpp unit/engine_tables_test.cpp unit/engine_view_test.cpp)
 target_link_libraries(engine_unit_test PRIVATE stage_test_support engine_view GTest::gtest_main)
 gtest_discover_tests(engine_unit_test PROPERTIES LABELS unit)

@@ -68,8 +68,11 @@ void TileBuilder::asset(u32 patchId, std::array<glm::vec3, 4> corners, std::arra
     instances_.push_back({{rows[0], rows[1], rows[2]}, patchId, 0, 0, 0});
 }
 
-u32 TileBuilder::group(const std::vector<u32>& members)
+u32 TileBuilder::group(const std::vector<u32>& members, const std::vector<gpu::ChildSlopeRecord>& slopes)
 {
+    HELIO_CHECK(slopes.empty() || slopes.size() == members.size(), slopes.size(), " slopes, ", members.size());
+    childSlopes_.insert(childSlopes_.end(), slopes.begin(), slopes.end());
+    if (slopes.empty()) childSlopes_.resize(childSlopes_.size() + members.size(), gpu::ChildSlopeRecord{});
     const u32 id = u32(patches.size() + groups.size());
     gpu::NodeRecord node{gpu::kNone, u32(children_.size()), u32(members.size()), 0.0f};
     double area = 0.0;
@@ -83,9 +86,9 @@ u32 TileBuilder::group(const std::vector<u32>& members)
     return id;
 }
 
-void TileBuilder::link(u32 receiver, u32 sender, float factor)
+void TileBuilder::link(u32 receiver, u32 sender, float factor, glm::vec2 moment)
 {
-    links_[receiver].push_back({sender, factor});
+    links_[receiver].push_back({sender, factor, moment});
 }
 void TileBuilder::sky(u32 patchId, float factor)
 {
@@ -102,13 +105,14 @@ TileView TileBuilder::view()
     }
 
     linkRows_ = skyRows_ = {0};
-    linkColumns_.clear(), linkFactors_.clear(), skyColumns_.clear(), skyFactors_.clear();
+    linkColumns_.clear(), linkFactors_.clear(), linkMoments_.clear(), skyColumns_.clear(), skyFactors_.clear();
     for (u32 i = 0; i < nodes_.size(); ++i) {
         const auto found = links_.find(i);
         if (found != links_.end())
-            for (const auto& [column, factor] : found->second) {
-                linkColumns_.push_back(column);
-                linkFactors_.push_back(factor);
+            for (const Link& link : found->second) {
+                linkColumns_.push_back(link.column);
+                linkFactors_.push_back(link.factor);
+                linkMoments_.insert(linkMoments_.end(), {link.moment.x, link.moment.y});
             }
         linkRows_.push_back(u32(linkColumns_.size()));
     }
@@ -139,6 +143,10 @@ TileView TileBuilder::view()
     tile.linkRows = linkRows_;
     tile.linkColumns = linkColumns_;
     tile.linkFactors = linkFactors_;
+    if (linear) {
+        tile.linkMoments = linkMoments_;
+        tile.childSlopes = childSlopes_;
+    }
     tile.skyPatches = skyPatches_;
     tile.skyRows = skyRows_;
     tile.skyColumns = skyColumns_;

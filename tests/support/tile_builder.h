@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <map>
@@ -23,9 +24,10 @@ public:
     u32 box(glm::vec3 lo, glm::vec3 hi, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f), bool inwards = false);
     /// Draws one more quad of local corners with an instance's transform, as an asset of a patch.
     void asset(u32 patchId, std::array<glm::vec3, 4> corners, std::array<glm::vec4, 3> worldFromLocal);
-    /// An inner node; all patches must exist. Children are ids of patches and earlier groups.
-    u32 group(const std::vector<u32>& children);
-    void link(u32 receiver, u32 sender, float factor);
+    /// An inner node; all patches must exist. Children are ids of patches and earlier groups. slopes: what each child
+    /// adds to the node's slopes; none = nothing.
+    u32 group(const std::vector<u32>& children, const std::vector<gpu::ChildSlopeRecord>& slopes = {});
+    void link(u32 receiver, u32 sender, float factor, glm::vec2 moment = glm::vec2(0.0f));
     void sky(u32 patchId, float factor);
 
     /// The tile; stays valid until the builder changes or dies.
@@ -33,6 +35,7 @@ public:
 
     std::vector<gpu::PatchRecord> patches;
     std::vector<gpu::NodeRecord> groups;
+    bool linear = false; ///< the view has the links' moments and the children's slopes
 
 private:
     void triangles(const std::array<glm::vec3, 4>& corners, glm::vec3 normal, glm::vec4 rho, u32 patchId);
@@ -41,12 +44,19 @@ private:
     std::vector<gpu::VertexRecord> vertices_, assetVertices_;
     std::vector<u32> indices_, assetIndices_;
     std::vector<gpu::InstanceRecord> instances_, allInstances_;
-    std::map<u32, std::vector<std::pair<u32, float>>> links_;
+    struct Link
+    {
+        u32 column;
+        float factor;
+        glm::vec2 moment;
+    };
+    std::vector<gpu::ChildSlopeRecord> childSlopes_;
+    std::map<u32, std::vector<Link>> links_;
     std::map<u32, float> sky_;
 
     std::vector<gpu::NodeRecord> nodes_;
     std::vector<u32> linkRows_, linkColumns_, skyRows_, skyColumns_, allIndices_;
-    std::vector<float> linkFactors_, skyFactors_;
+    std::vector<float> linkFactors_, linkMoments_, skyFactors_;
     std::vector<gpu::SkyPatchRecord> skyPatches_;
     std::vector<gpu::VertexRecord> allVertices_;
     std::vector<gpu::DrawRecord> draws_;

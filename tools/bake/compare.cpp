@@ -7,8 +7,8 @@
 #include <span>
 
 #include "city/light/error_metrics.h"
-#include "tools/bake/light_csv.h"
 #include "tools/support/complain.h"
+#include "tools/support/light_csv.h"
 
 namespace helio {
 namespace {

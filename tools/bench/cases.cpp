@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "engine/graph/pass_context.h"
+#include "engine/stream/link_packing.h"
 
 namespace helio {
 
@@ -155,15 +156,17 @@ private:
 
 double bytesOfSweep(const TileView& tile)
 {
-    u64 pairs = 0;
-    for (size_t row = 0; row + 1 < tile.linkRows.size(); ++row)
-        pairs += (tile.linkRows[row + 1] - tile.linkRows[row] + 1) / 2;
     const u64 nodes = tile.nodes.size(), patches = tile.patches.size(), inner = nodes - patches, light = 16;
-    const u64 gather = pairs * 16 + (nodes + 1) * 4 + 2 * nodes * light;
+    const LinkRows links{tile.linkRows, tile.linkColumns, tile.linkFactors, tile.linkMoments, u32(patches)};
+    u64 records = 0;
+    for (u32 row = 0; row < links.rowCount(); ++row) records += recordsOfRow(links, row).all;
+    const u64 gather = records * 16 + (2 * nodes + 1) * 4 + 2 * nodes * light;
     const u64 push = nodes * 4 + inner * light + 2 * nodes * light;
     const u64 update = patches * (sizeof(gpu::PatchRecord) + 4 * light);
     const u64 pull = tile.children.size() * 8 + inner * 8 + nodes * light;
-    return double(gather + push + update + pull);
+    // Linear senders: where a row's moments begin, slopes read by the gather and written by the pull.
+    const u64 slopes = links.linear() ? nodes * 4 + 4 * inner * light + tile.childSlopes.size_bytes() : 0;
+    return double(gather + push + update + pull + slopes);
 }
 
 void runCases(Context& context, const Pack& pack, Renderer& renderer, const Camera& camera, const BenchOptions& options,

@@ -8,7 +8,7 @@
 namespace helio {
 
 /// Bytes that a sweep must move if every array passes the memory once: links and rows, B read and E written by the
-/// gather; E pushed down; the update of the patches; B pulled up.
+/// gather; E pushed down; the update of the patches; B pulled up; with linear senders their slopes, too.
 double bytesOfSweep(const TileView& tile);
 
 /// Runs every case under Google Benchmark, each once untimed and then options.repeats times, and hands the times to the

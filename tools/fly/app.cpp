@@ -104,6 +104,7 @@ std::unique_ptr<FlyApp> FlyApp::open(const FlyOptions& options, Failure& failure
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*app->context_, *app->pack_, rendererOptions);
     if (!renderer) return fail(renderer.error(), true);
     app->renderer_ = std::move(*renderer);
+    if (!app->renderer_->note().empty()) std::cout << "Note: " << app->renderer_->note() << std::endl;
     app->renderer_->setSky(options.dhi);
     app->recorder_ = std::make_unique<Recorder>(*app->context_);
     return app;

@@ -5,8 +5,10 @@
 #include <cstdio>
 
 #include "city/base/file.h"
+#include "engine/view/energy_audit.h"
 #include "engine/view/picture_file.h"
 #include "engine/view/renderer.h"
+#include "tools/render/first_light.h"
 #include "tools/render/options.h"
 #include "tools/render/table.h"
 #include "tools/support/complain.h"
@@ -38,16 +40,39 @@ const char* shortfall(const RenderOptions& o, const SolveReport& report)
 
 void printSolve(const RenderOptions& o, const SolveReport& report)
 {
-    std::printf("Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an "
-                "ancestor's "
-                "ratio, %u clamped\n",
-                report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY,
-                report.litPatches, report.flaggedPatches, report.excessPatches);
-    std::printf("Residual %.3g after %u sweeps%s; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
-                shortfall(o, report), report.meanRadiosity.a);
+    if (o.firstLight.empty())
+        std::printf(
+            "Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an "
+            "ancestor's "
+            "ratio, %u clamped\n",
+            report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY, report.litPatches,
+            report.flaggedPatches, report.excessPatches);
+    std::printf("Residual %.3g after %u sweeps%s%s; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
+                report.accelerated ? " of Chebyshev's semi-iteration" : "", shortfall(o, report),
+                report.meanRadiosity.a);
+    const glm::dvec4 &bound = report.bound, &number = report.contraction;
+    const double largest = std::max(std::max(number.r, number.g), std::max(number.b, number.a));
+    if (largest < 1.0)
+        std::printf(
+            "No radiosity is further from the links' solution than %.3g W/m2 (r %.3g, g %.3g, b %.3g); contraction "
+            "number %.3f\n",
+            bound.a, bound.r, bound.g, bound.b, largest);
+    else
+        std::printf("The distance to the links' solution has no bound: contraction number %.3f\n", largest);
     std::printf("On the device:\n");
     for (const PassTime& stage : report.stages)
         std::printf("  %-28s %9.2f ms\n", stage.name.c_str(), stage.milliseconds);
+}
+
+void printAudit(const EnergyAudit& audit)
+{
+    const double in = audit.in().a, percent = in > 0.0 ? 100.0 / in : 0.0;
+    const glm::dvec4 missing = 100.0 * audit.unexplainedShare();
+    std::printf(
+        "Energy (solar): in %.6g W = sun %.2f %% + sky %.2f %% + emitters %.2f %%; absorbed %.2f %%, out to the "
+        "sky %.2f %%, out of the scene %.2f %%; unexplained %.3f %% (r %.3f, g %.3f, b %.3f)\n",
+        in, percent * audit.sun.a, percent * audit.sky.a, percent * audit.emission.a, percent * audit.absorbed.a,
+        percent * audit.toSky.a, percent * audit.away.a, missing.a, missing.r, missing.g, missing.b);
 }
 
 void printPicture(const Picture& picture)
@@ -59,8 +84,9 @@ void printPicture(const Picture& picture)
 
 std::string describeLight(const RenderOptions& o, const Daylight& light, const SolveReport& report)
 {
-    return concat(light.description, o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual,
-                  " after ", report.sweeps, " sweeps", shortfall(o, report));
+    return concat(o.firstLight.empty() ? light.description : concat("first light of ", o.firstLight),
+                  o.emission ? ", emitters on" : ", emitters off", "; residual ", report.residual, " after ",
+                  report.sweeps, " sweeps", shortfall(o, report));
 }
 
 Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptions& o)
@@ -104,6 +130,12 @@ int runMain(int argc, char** argv)
         return complain(
             concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"),
             kBadInput);
+    std::shared_ptr<const FirstLight> given;
+    if (!o.firstLight.empty()) {
+        const Result<FirstLight> read = readFirstLight(o.firstLight, *pack);
+        if (!read) return complain(read.error().message, kBadInput);
+        given = std::make_shared<const FirstLight>(*read);
+    }
     const Result<Daylight> light = daylightOver(*pack, o.daylight);
     if (!light) return complain(concat(o.pack, ": ", light.error().message), kBadInput);
     const Result<Camera> camera = parseCamera(o.camera, *pack);
@@ -137,18 +169,21 @@ int runMain(int argc, char** argv)
     Renderer& renderer = **created;
     steps.done("upload");
 
-    std::printf("Light: %s\n", light->description.c_str());
+    if (!renderer.note().empty()) std::printf("Note: %s\n", renderer.note().c_str());
+    std::printf("Light: %s\n", given ? o.firstLight.c_str() : light->description.c_str());
+    renderer.setFirstLight(given);
     renderer.setSun(light->azimuthDeg, light->elevationDeg, light->dni);
     renderer.setSky(light->dhi, light->skyRadiance);
     renderer.setEmission(o.emission);
     const SolveReport report = renderer.solve();
     steps.done("solve");
     printSolve(o, report);
+    const LightTables tables = renderer.readTables();
+    printAudit(auditEnergy(pack->tile(), tables, o.emission));
     if (const Status written = writePictures(renderer, *camera, o); !written)
         return complain(written.error().message, kBadInput);
     if (!o.table.empty()) {
-        const Result<std::string> text =
-            tableText(*pack, renderer.readTables(), o.rows, describeLight(o, *light, report));
+        const Result<std::string> text = tableText(*pack, tables, o.rows, describeLight(o, *light, report));
         if (!text) return complain(text.error().message, kBadInput);
         if (const Status written = writeTextAtomically(o.table, *text); !written)
             return complain(written.error().message, kBadInput);

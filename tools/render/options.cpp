@@ -97,9 +97,15 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         ->check(numberIn(-20.0, 20.0))
         ->capture_default_str();
     app.add_flag("--flat", flat, "one light value a patch in the picture, not interpolated");
-    app.add_option("-o,--output", o.png, "picture as PNG, sRGB");
-    app.add_option("--exr", o.exr,
-                   "picture as EXR, linear: W/m2/sr for final, without display tints; else the view's own unit");
+    auto* png = app.add_option("-o,--output", o.png, "picture as PNG, sRGB");
+    auto* exr = app.add_option(
+        "--exr", o.exr, "picture as EXR, linear: W/m2/sr for final, without display tints; else the view's own unit");
+    app.add_option(
+           "--first-light", o.firstLight,
+           "table as --table writes it: its E_sun and E_sky stand in place of the sun raster and the sky links, "
+           "so that a table of the result shows the error of the links alone")
+        ->excludes(png)
+        ->excludes(exr);
     app.add_option("--table", o.table, "irradiance and radiosity as CSV, W/m2");
     app.add_option("--per", per, "row of the table: patch, or face of the OBJ")
         ->check(CLI::IsMember({"patch", "face"}))

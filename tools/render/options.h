@@ -25,6 +25,7 @@ struct RenderOptions
     double exposureStops = 0.0;
     bool smooth = true;
     std::string png, exr, table;
+    std::string firstLight; ///< table of E_sun and E_sky in place of what the sun raster and the sky links give
     TableRows rows = TableRows::Patch;
     u32 mode = gpu::kModeFinal;
     std::string device;

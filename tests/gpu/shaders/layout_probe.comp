@@ -17,6 +17,7 @@ layout(scalar, binding = 5) readonly buffer Draws { DrawRecord draws[]; };
 layout(scalar, binding = 6) readonly buffer SkyPatches { SkyPatchRecord skyPatches[]; };
 layout(scalar, binding = 7) writeonly buffer Sums { float sums[]; };
 layout(scalar, binding = 8) readonly buffer LinkPairs { LinkPairRecord linkPairs[]; };
+layout(scalar, binding = 9) readonly buffer LinearLinks { LinearLinkRecord linearLinks[]; };
 layout(push_constant, scalar) uniform Params { uint count; };
 
 void main()
@@ -25,5 +26,5 @@ void main()
     if (i >= count) return;
     sums[i] = patches[i].area + nodes[i].area + nodeInfos[i].coverage + vertices[i].position.z +
               instances[i].worldFromLocal[2].w + float(draws[i].firstInstance) + skyPatches[i].solidAngle +
-              float(linkPairs[i].column1);
+              float(linkPairs[i].column1) + linearLinks[i].momentY;
 }

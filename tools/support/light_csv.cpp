@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/bake/light_csv.h"
+#include "tools/support/light_csv.h"
 
 #include <charconv>
 #include <cmath>

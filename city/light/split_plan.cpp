@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
 #include <queue>
 
@@ -17,7 +18,8 @@
 namespace helio {
 namespace {
 
-constexpr u32 kCells = 16, kPointsPerCell = 4;
+constexpr u32 kFewestCells = 16, kMostCells = 1024, kPointsPerCell = 4;
+constexpr double kLargeCell = 4.0; // m2: patches whose cells would be larger get more of them
 constexpr u32 kNearRays = 64;
 constexpr double kNearest = 0.1; // m: nearer surfaces count as this far
 
@@ -26,8 +28,9 @@ struct Grid
 {
     glm::dvec3 origin{0.0}, u{0.0}, v{0.0}; ///< corner; unit vectors along the sides
     double width = 0.0, height = 0.0;       ///< m
-    u32 nu = 4, nv = 4;
+    u32 nu = 1, nv = 1;                     ///< cells along them, powers of two
 
+    u32 cellCount() const { return nu * nv; }
     glm::dvec3 at(double x, double y) const { return origin + x * width * u + y * height * v; }
 };
 
@@ -60,15 +63,10 @@ Grid gridOf(const NodeTree& tree, u32 patch)
     grid.origin = base + low.x * grid.u + low.y * grid.v;
     grid.width = high.x - low.x;
     grid.height = high.y - low.y;
-    // Cells as square as sixteen of them can be.
-    while (grid.nu < 16 && grid.width / grid.nu > 2.0 * grid.height / grid.nv) {
-        grid.nu *= 2;
-        grid.nv /= 2;
-    }
-    while (grid.nv < 16 && grid.height / grid.nv > 2.0 * grid.width / grid.nu) {
-        grid.nv *= 2;
-        grid.nu /= 2;
-    }
+    u32 cells = kFewestCells;
+    while (cells < kMostCells && grid.width * grid.height > kLargeCell * double(cells)) cells *= 4;
+    // As square as so many cells can be.
+    while (grid.cellCount() < cells) (grid.width * grid.nv >= grid.height * grid.nu ? grid.nu : grid.nv) *= 2;
     return grid;
 }
 
@@ -89,16 +87,17 @@ bool isInside(const Grid& grid, std::span<const Ring3> rings, double x, double y
 /// Direct light on the cells of a patch.
 struct Samples
 {
-    std::array<u8, kCells> points{}; ///< of each cell that lie on the patch, 0..4
-    std::vector<u8> lit;             ///< [cell * suns + sun]: of these, those that the sun reaches
-    double nearness = 0.0;           ///< 1/m: mean over cosine rays of 1 / distance
+    std::vector<u8> points; ///< of each cell that lie on the patch, 0..4
+    std::vector<u8> lit;    ///< [cell * suns + sun]: of these, those that the sun reaches
+    double nearness = 0.0;  ///< 1/m: mean over cosine rays of 1 / distance
 };
 
 Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns, u32 patch,
                  const Grid& grid)
 {
     Samples s;
-    s.lit.assign(kCells * suns.size(), 0);
+    s.points.assign(grid.cellCount(), 0);
+    s.lit.assign(grid.cellCount() * suns.size(), 0);
     const glm::dvec3 normal = tree.nodes[patch].normal;
     const std::span<const Ring3> rings = tree.outlineOf(patch);
     const bool rectangle = rings.size() == 1 && rings[0].size() == 4 &&
@@ -106,7 +105,7 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
     const std::array<u32, 4> shift = digitalShift(mixSeed(0x5911, patch));
     std::vector<glm::dvec3> points;
     std::vector<u32> cellOf;
-    for (u32 cell = 0; cell < kCells; ++cell) {
+    for (u32 cell = 0; cell < grid.cellCount(); ++cell) {
         for (u32 k = 0; k < kPointsPerCell; ++k) {
             // 2 x 2 strata in each cell, jittered.
             const std::array<double, 4> r = shiftedSobol4(cell * kPointsPerCell + k, shift);
@@ -118,10 +117,10 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
             ++s.points[cell];
         }
     }
-    std::array<bool, kCells * kPointsPerCell> blocked{};
+    const auto blocked = std::make_unique<bool[]>(points.size());
     for (size_t sun = 0; sun < suns.size(); ++sun) {
         if (glm::dot(normal, suns[sun]) <= 0.0) continue;
-        visibility.areBlocked(points, normal, suns[sun], std::span(blocked).first(points.size()));
+        visibility.areBlocked(points, normal, suns[sun], std::span(blocked.get(), points.size()));
         for (size_t p = 0; p < points.size(); ++p)
             if (!blocked[p]) ++s.lit[cellOf[p] * suns.size() + sun];
     }
@@ -219,7 +218,7 @@ private:
             const double total = pointsIn(patch, {0, 0, grids_[patch].nu, grids_[patch].nv});
             for (size_t s = 0; s < n && total > 0.0; ++s) {
                 double lit = 0.0;
-                for (u32 cell = 0; cell < kCells; ++cell) lit += samples_[patch].lit[cell * n + s];
+                for (u32 cell = 0; cell < grids_[patch].cellCount(); ++cell) lit += samples_[patch].lit[cell * n + s];
                 mean[s] += p.area * p.rho.w * std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[s])) * lit / total;
             }
         }

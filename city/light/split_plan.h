@@ -35,10 +35,10 @@ struct SplitOptions
     u32 jobs = 0;
 };
 
-/// Finds where direct light varies inside patches that others see from near: links.md's criterion, variance of direct
-/// light x (size / distance)^2, with 64 points a patch in 16 cells and `directions` of suns. Patches are halved along
-/// the longer or shorter side of their bounding rectangle, the largest gain per added patch first, down to a sixteenth
-/// of the patch; cuts lie where cells border. `mayCut` has a byte a patch: 0 = it stays whole.
+/// Finds where direct light varies inside patches that others see from near: variance of the light of `suns` x (size /
+/// distance)^2, by four points a cell in 16 cells a patch, 64 to 1024 for large ones. Patches are halved along a side of
+/// their bounding rectangle, the largest gain per added patch first, down to a cell; cuts lie where cells border.
+/// `mayCut` has a byte a patch: 0 = it stays whole.
 SplitPlan planSplits(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns,
                      std::span<const u8> mayCut, const SplitOptions& options);
 

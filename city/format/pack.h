@@ -60,6 +60,11 @@ struct TileView
     std::span<const gpu::ChildSlopeRecord> childSlopes;
 };
 
+/// Number of sky patches that are parts of the sky: all but the ground beyond the scene, which comes last if at all.
+u32 skyCellCount(std::span<const gpu::SkyPatchRecord> skyPatches);
+/// Reflectance of the ground beyond the scene; 0 = there is none.
+glm::vec4 farGroundOf(const TileView& tile);
+
 /// A pack opened for reading. Every offset, count and index in it has been checked against its bounds.
 class Pack
 {

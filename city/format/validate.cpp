@@ -257,6 +257,13 @@ private:
             if (!isUnit(sky.direction) || !(sky.solidAngle > 0.0f && sky.solidAngle < 12.57f))
                 return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i,
                             " has no direction or a solid angle outside 0..4 pi");
+            const bool ground = sky.direction.z < 0.0f;
+            if (ground && i + 1 < t_.skyPatches.size())
+                return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i,
+                            " lies below the horizon and is not the last");
+            for (int c = 0; c < 4; ++c)
+                if (ground ? !inUnit(sky.rho[c]) : sky.rho[c] != 0.0f)
+                    return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i, ": reflectance ", sky.rho[c]);
         }
         if (Status status = checkRows(SectionId::SkyRows, t_.skyRows, t_.patches.size(), t_.skyColumns.size()); !status)
             return status;

@@ -19,7 +19,8 @@ struct LinkTable
     std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to NodeTree::children where there are moments
 };
 
-/// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column). The sky patches are the cells of a SkyDome.
+/// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column). The sky patches are the cells of a SkyDome,
+/// and after them the ground beyond the scene where there is one.
 struct SkyTable
 {
     std::vector<gpu::SkyPatchRecord> skyPatches;

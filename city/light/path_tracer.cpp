@@ -50,8 +50,8 @@ template <class T> struct Spread
 /// What a path or the mean of some paths brings.
 struct Gathered
 {
-    double sun = 0.0, sky = 0.0;
-    glm::dvec4 indirect{0.0};
+    double sun = 0.0;
+    glm::dvec4 sky{0.0}, indirect{0.0};
 };
 
 /// One thread's paths.
@@ -59,7 +59,8 @@ class Walker
 {
 public:
     Walker(const NodeTree& tree, const Visibility& visibility, const PathOptions& options)
-        : tree_(tree), visibility_(visibility), options_(options), sunUp_(options.dni > 0.0 && options.toSun.z > 0.0)
+        : tree_(tree), visibility_(visibility), options_(options), sunUp_(options.dni > 0.0 && options.toSun.z > 0.0),
+          plain_(options.farGround * (options.dhi + (sunUp_ ? options.dni * options.toSun.z : 0.0)))
     {
     }
 
@@ -77,16 +78,22 @@ public:
             ++rays;
             const RayHit hit = visibility_.trace(start, frame.normal, direction);
             if (hit.patch == kNoIndex)
-                sum.sky += direction.z > 0.0 ? options_.dhi : 0.0;
+                sum.sky += outside(direction);
             else
                 sum.indirect += radiosityAt(hit, random);
         }
-        return {sum.sun / paths, sum.sky / paths, sum.indirect / double(paths)};
+        return {sum.sun / paths, sum.sky / double(paths), sum.indirect / double(paths)};
     }
 
     u64 rays = 0, cutPaths = 0;
 
 private:
+    /// pi x the radiance that comes from outside the scene against a direction.
+    glm::dvec4 outside(const glm::dvec3& direction) const
+    {
+        return direction.z > 0.0 ? glm::dvec4(options_.dhi) : plain_;
+    }
+
     double sunAt(u32 patch, const glm::dvec3& point)
     {
         const glm::dvec3& normal = tree_.nodes[patch].normal;
@@ -120,7 +127,7 @@ private:
             ++rays;
             hit = visibility_.trace(hit.point, frame.normal, direction);
             if (hit.patch == kNoIndex) {
-                if (direction.z > 0.0) sum += weight * options_.dhi;
+                sum += weight * outside(direction);
                 break;
             }
         }
@@ -131,6 +138,7 @@ private:
     const Visibility& visibility_;
     const PathOptions& options_;
     const bool sunUp_;
+    const glm::dvec4 plain_; ///< exitance of the plain beyond the scene
 };
 
 } // namespace
@@ -154,8 +162,8 @@ PathReference tracePaths(const NodeTree& tree, const Visibility& visibility, con
             if (tree.patches[patch].covered) continue;
             const PlaneFrame frame = planeFrame(tree.nodes[patch].normal);
             const u64 seed = mixSeed(mixSeed(options.seed, 0xbeac), patch);
-            Spread<double> sun, sky;
-            Spread<glm::dvec4> indirect, total;
+            Spread<double> sun;
+            Spread<glm::dvec4> sky, indirect, total;
             for (u32 g = 1; g <= out.groups; ++g) {
                 const Gathered mean = walker.group(patch, frame, perGroup, mixSeed(seed, g));
                 sun.add(mean.sun, g);

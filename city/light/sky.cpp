@@ -44,11 +44,13 @@ void endRow(SkyRows& rows, std::vector<u32>& counts, std::vector<u32>& cells, fl
     rows.rowEnd.push_back(u32(rows.column.size()));
 }
 
-SkyTable joinRows(const SkyDome& dome, std::vector<SkyRows>& runs)
+SkyTable joinRows(const SkyDome& dome, const glm::dvec4& farGround, std::vector<SkyRows>& runs)
 {
     SkyTable table;
     for (u32 cell = 0; cell < dome.cellCount(); ++cell)
-        table.skyPatches.push_back({glm::vec3(dome.centreOf(cell)), float(dome.solidAngle())});
+        table.skyPatches.push_back({glm::vec3(dome.centreOf(cell)), float(dome.solidAngle()), glm::vec4(0.0f)});
+    if (farGround != glm::dvec4(0.0))
+        table.skyPatches.push_back({glm::vec3(0, 0, -1), float(2.0 * std::numbers::pi), glm::vec4(farGround)});
     table.rowBegin.push_back(0);
     for (SkyRows& run : runs) {
         const u64 first = table.column.size();
@@ -84,9 +86,10 @@ u32 autoSkyPatches(u32 patchCount)
 }
 
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
-                const std::function<void(double)>& progress, const SkyDome& dome)
+                const std::function<void(double)>& progress, const SkyDome& dome, const glm::dvec4& farGround)
 {
     HELIO_CHECK(rays > 0, "rays = ", rays);
+    const bool plain = farGround != glm::dvec4(0.0);
     const u32 count = tree.patchCount();
     const std::vector<u32> root = planarRoots(tree);
     SkyScan scan;
@@ -99,7 +102,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
     parallelFor(count, kChunk, jobs, [&](u32 begin, u32 end) {
         std::vector<std::pair<u32, u32>>& pairs = pairsOf[begin / kChunk];
         SkyRows& rows = rowsOf[begin / kChunk];
-        std::vector<u32> seen, cells, inCell(dome.cellCount(), 0);
+        std::vector<u32> seen, cells, inCell(dome.cellCount() + 1, 0); // the last: the plain beyond
         const float share = 1.0f / float(rays);
         for (u32 patch = begin; patch < end; ++patch) {
             if (tree.patches[patch].covered) {
@@ -130,6 +133,10 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                     if (seen.empty() || seen.back() != root[hit.patch]) seen.push_back(root[hit.patch]);
                 }
             }
+            if (plain && below > 0) {
+                inCell[dome.cellCount()] = below;
+                cells.push_back(dome.cellCount());
+            }
             endRow(rows, inCell, cells, share);
             scan.sky[patch] = float(sky) * share;
             scan.below[patch] = float(below) * share;
@@ -150,7 +157,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         pairs = {};
     }
     sortUnique(scan.rootPairs);
-    scan.links = joinRows(dome, rowsOf);
+    scan.links = joinRows(dome, farGround, rowsOf);
     return scan;
 }
 

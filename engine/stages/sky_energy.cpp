@@ -9,14 +9,6 @@
 
 namespace helio {
 
-std::vector<glm::vec4> uniformSky(std::span<const gpu::SkyPatchRecord> skyPatches, double dhi)
-{
-    std::vector<glm::vec4> radiance;
-    for (const gpu::SkyPatchRecord& sky : skyPatches)
-        radiance.push_back(glm::vec4(sky.direction.z > 0.0f ? float(dhi / std::numbers::pi) : 0.0f));
-    return radiance;
-}
-
 Ref<Buffer> addSkyEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiance, Ref<Buffer> to)
 {
     return graph.addPass("sky energy", [&](PassBuilder& pass) {

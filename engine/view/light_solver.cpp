@@ -145,11 +145,7 @@ void LightSolver::solveSun(const LightState& light)
 
 void LightSolver::solveSky(const LightState& light)
 {
-    std::vector<glm::vec4> sky(light.skyRadiance.size());
-    std::transform(light.skyRadiance.begin(), light.skyRadiance.end(), sky.begin(),
-                   [](float value) { return glm::vec4(value); });
-    const Buffer radiance =
-        makeBuffer(context_, "sky radiance", sky.empty() ? uniformSky(tile_.skyPatches, light.dhi) : sky);
+    const Buffer radiance = makeBuffer(context_, "sky radiance", outsideRadiance(tile_.skyPatches, light));
     FrameGraph graph("sky");
     (void)addSkyEnergy(graph, tile_, graph.import(radiance), graph.import(sky_));
     run(graph);
@@ -196,7 +192,9 @@ const SolveReport& LightSolver::solve(const LightState& light)
     report_.stages.clear();
     const bool sunMoved = !solved_ || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni;
     if (sunMoved) solveSun(light);
-    if (!solved_ || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance) solveSky(light);
+    const bool sunOutside = sunMoved && skyCellCount(tile_.skyPatches) < tile_.skyPatches.size();
+    if (!solved_ || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance || sunOutside)
+        solveSky(light);
     sweep(light, solved_.has_value() && options_.solve.warmStart);
     solved_ = light;
     solvedWith_ = options_.solve;

@@ -90,7 +90,8 @@ public:
 
     /// Azimuth clockwise from true north, elevation above the horizon, degrees; dni W/m2.
     void setSun(double azimuthDeg, double elevationDeg, double dni);
-    /// dhi W/m2. `radiance`: W/m2/sr of each sky patch of the pack, which must add up to dhi; none = uniform.
+    /// dhi W/m2. `radiance`: W/m2/sr of each cell of the pack's sky (skyCellCount), which must add up to dhi; none =
+    /// uniform. The ground beyond the scene, where the pack has one, is lit by them and by the sun.
     void setSky(double dhi, std::vector<float> radiance = {});
     void setEmission(bool on);
     SolveOptions& solveOptions();

@@ -106,6 +106,35 @@ TEST(SkyLinks, OvercastSkyOnGroundAndWalls)
     }
 }
 
+TEST(SkyLinks, AWallAtTheEdgeOfAFlatCityIsLitByTheGroundBeyond)
+{
+    // It sees nothing of the city, half of the sky, and half of the plain: rho / 2 (DNI sin(elevation) + DHI).
+    std::vector<Face> faces = grid({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1, 1, {{}, 0});
+    append(faces, grid({-1000, -500, 0}, {1000, 0, 0}, {0, 1000, 0}, 1, 1, {{}, 1}));
+    append(faces, grid({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 1, 1, {{}, 2}));
+    const NodeTree tree = makeTree(faces);
+    const glm::dvec4 rho(0.12, 0.2, 0.3, 0.4);
+    for (const u32 cells : {1u, 96u}) {
+        const LightBake bake = bakeLight(tree, {.skyPatches = cells, .farGround = rho});
+        ASSERT_EQ(bake.sky.skyPatches.size(), cells + 1);
+        EXPECT_EQ(bake.sky.skyPatches[cells].direction, glm::vec3(0, 0, -1));
+        EXPECT_EQ(bake.sky.skyPatches[cells].rho, glm::vec4(rho));
+        EXPECT_EQ(bake.sky.skyPatches[0].rho, glm::vec4(0.0f));
+        std::vector<double> radiance(cells + 1, 0.0);
+        radiance[cells] = rho.y / kPi * (800.0 * 0.5 + 120.0);
+        EXPECT_NEAR(irradiance(bake.sky, 0, radiance), 0.5 * rho.y * 520.0, 0.01 * 0.5 * rho.y * 520.0);
+        EXPECT_EQ(irradiance(bake.sky, 1, radiance), 0.0) << "the city's ground lies in the plain";
+        // Towards the city: its ground takes part of what is below the horizon, the plain beyond the rest.
+        EXPECT_LT(irradiance(bake.sky, 2, radiance), 0.02 * 0.5 * rho.y * 520.0);
+        radiance.assign(cells + 1, 1.0 / kPi);
+        EXPECT_NEAR(irradiance(bake.sky, 0, radiance), 1.0, 1e-6) << "nothing is lost";
+        EXPECT_TRUE(bake.stats.farGround);
+        EXPECT_NEAR(bake.stats.closure.mean, 1.0, 2e-3);
+        EXPECT_NEAR(bake.stats.below.max, 0.5, 5e-3);
+    }
+    EXPECT_EQ(bakeLight(tree, {.skyPatches = 96}).sky.skyPatches.size(), 96u);
+}
+
 TEST(SkyLinks, BakeChoosesTheDome)
 {
     const NodeTree tree = openScene();

@@ -27,6 +27,8 @@ public:
     u32 group(const std::vector<u32>& children);
     void link(u32 receiver, u32 sender, float factor);
     void sky(u32 patchId, float factor);
+    /// Ground beyond the scene, of which a patch sees this fraction; one reflectance for all.
+    void farGround(u32 patchId, float factor, glm::vec4 rho);
 
     /// The tile; stays valid until the builder changes or dies.
     TileView view();
@@ -42,7 +44,8 @@ private:
     std::vector<u32> indices_, assetIndices_;
     std::vector<gpu::InstanceRecord> instances_, allInstances_;
     std::map<u32, std::vector<std::pair<u32, float>>> links_;
-    std::map<u32, float> sky_;
+    std::map<u32, float> sky_, below_;
+    glm::vec4 farGroundRho_{0.0f};
 
     std::vector<gpu::NodeRecord> nodes_;
     std::vector<u32> linkRows_, linkColumns_, skyRows_, skyColumns_, allIndices_;

@@ -146,20 +146,46 @@ TEST(Display, LinearOutputHasNoTint)
 {
     LightState light;
     light.towardsSun = sunDirection(150, 40, 0);
-    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, false, 0.0);
+    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, false, {});
     EXPECT_EQ(v.sunLight, glm::vec4(800.0f));
     EXPECT_EQ(v.skyTint, glm::vec4(1.0f));
     EXPECT_NEAR(double(v.zenith.r), 120.0 / 3.14159265, 1e-4);
     EXPECT_EQ(glm::vec3(v.horizon), glm::vec3(v.zenith));
     EXPECT_EQ(glm::vec3(v.ground), glm::vec3(0.0f));
     EXPECT_EQ(forwardParams({}, 1.5, {}, false).eye.w, 0.0f);
+    // A ground beyond the scene is as bright as the light solve has it: rho / pi (DNI sin(elevation) + DHI).
+    const gpu::ViewRecord g = viewRecord({}, 1.5, light, {}, false, {-1.0, {0.1, 0.2, 0.3}});
+    EXPECT_NEAR(double(g.ground.g), 0.2 / 3.14159265 * (800.0 * std::sin(glm::radians(40.0)) + 120.0), 1e-4);
+    EXPECT_EQ(g.horizon.w * g.ground.w, 0.0f) << "no haze over it";
+}
+
+TEST(OutsideRadiance, TheGroundBeyondIsLitBySunAndSky)
+{
+    std::vector<gpu::SkyPatchRecord> patches{{{0, 0, 1}, 3.0f, {}}, {{0, 1, 0}, 3.0f, {}}};
+    LightState light;
+    light.towardsSun = sunDirection(150, 30, 0);
+    constexpr double kPi = 3.14159265358979;
+    const auto near = [](float value, double expected) { EXPECT_NEAR(double(value), expected, 1e-6 * expected); };
+    std::vector<glm::vec4> radiance = outsideRadiance(patches, light);
+    ASSERT_EQ(radiance.size(), 2u);
+    near(radiance[1].w, 120.0 / kPi);
+    patches.push_back({{0, 0, -1}, 6.2831853f, {0.1f, 0.2f, 0.3f, 0.4f}});
+    radiance = outsideRadiance(patches, light);
+    ASSERT_EQ(radiance.size(), 3u);
+    near(radiance[2].x, 0.1 / kPi * 520.0);
+    near(radiance[2].w, 0.4 / kPi * 520.0);
+    light.skyRadiance = {7.0f, 9.0f};
+    light.towardsSun.z = -0.1;
+    radiance = outsideRadiance(patches, light);
+    EXPECT_EQ(radiance[1], glm::vec4(9.0f));
+    near(radiance[2].y, 0.2 / kPi * 120.0);
 }
 
 TEST(Display, TintsKeepTheBrightness)
 {
     LightState light;
     light.towardsSun = sunDirection(150, 10, 0);
-    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, true, 0.0);
+    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, true, {});
     const auto luminance = [](glm::vec4 c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };
     EXPECT_NEAR(luminance(v.sunLight), 800.0, 0.01);
     EXPECT_NEAR(luminance(v.skyTint), 1.0, 1e-5);

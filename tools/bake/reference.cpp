@@ -44,9 +44,9 @@ std::string tableOf(const NodeTree& tree, const PathReference& reference, bool e
         std::snprintf(area, sizeof(area), ",%.9g", patch.area);
         text += concat(i, ",", patch.building == kNoIndex ? i64(-1) : i64(patch.building), area);
         for (const glm::dvec4& value :
-             {glm::dvec4(light.sun), glm::dvec4(light.sky), light.indirect,
+             {glm::dvec4(light.sun), light.sky, light.indirect,
               (emission ? patch.emission : glm::dvec4(0.0)) + patch.rho * total, glm::dvec4(light.sunError),
-              glm::dvec4(light.skyError), light.indirectError, light.totalError})
+              light.skyError, light.indirectError, light.totalError})
             append(text, value);
         text += "\n";
     }
@@ -91,6 +91,7 @@ int runReference(const ReferenceOptions& options)
                                                {.toSun = *toSun,
                                                 .dni = options.light.dni,
                                                 .dhi = options.light.dhi,
+                                                .farGround = glm::dvec4(farGroundOf(pack->tile())),
                                                 .emission = !options.noEmission,
                                                 .samples = options.samples,
                                                 .seed = options.seed,

@@ -11,14 +11,15 @@
 namespace helio {
 namespace {
 
-/// The dome that a pack's sky patches are the cells of. Error: none.
+/// The dome that a pack's sky patches but the ground beyond are the cells of. Error: none.
 Result<SkyDome> domeOf(const Pack& pack)
 {
     const auto& patches = pack.tile().skyPatches;
     const Error other{
         "the pack does not know parts of the sky apart: bake it with --sky-patches 96, or use --sky uniform"};
-    if (patches.size() < 2 || patches.size() > SkyDome::kMaxCells) return other;
-    const SkyDome dome(u32(patches.size()));
+    const u32 cells = skyCellCount(patches);
+    if (cells < 2 || cells > SkyDome::kMaxCells) return other;
+    const SkyDome dome(cells);
     for (u32 cell = 0; cell < dome.cellCount(); ++cell)
         if (!(glm::distance(glm::dvec3(patches[cell].direction), dome.centreOf(cell)) < 1e-5)) return other;
     return dome;

@@ -25,7 +25,7 @@ struct Daylight
 {
     double azimuthDeg = 0.0, elevationDeg = 0.0; ///< clockwise from true north; as it appears, refraction included
     double dni = 0.0, dhi = 0.0;                 ///< W/m2
-    std::vector<float> skyRadiance;              ///< W/m2/sr of the pack's sky patches; empty = uniform
+    std::vector<float> skyRadiance;              ///< W/m2/sr of the cells of the pack's sky; empty = uniform
     std::string description;                     ///< one line
 };
 

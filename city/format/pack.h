@@ -58,6 +58,8 @@ struct TileView
     std::span<const char> buildingIds;
     /// One an entry of `children` where there are link moments, else empty: constant senders.
     std::span<const gpu::ChildSlopeRecord> childSlopes;
+    /// One a sky link, or empty: the middle of what the patch sees of the sky patch, two snorm16 (SkyTable::offset).
+    std::span<const u32> skyOffsets;
 };
 
 /// Number of sky patches that are parts of the sky: all but the ground beyond the scene, which comes last if at all.

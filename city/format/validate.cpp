@@ -265,6 +265,9 @@ private:
                 if (ground ? !inUnit(sky.rho[c]) : sky.rho[c] != 0.0f)
                     return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i, ": reflectance ", sky.rho[c]);
         }
+        if (!t_.skyOffsets.empty() && t_.skyOffsets.size() != t_.skyColumns.size())
+            return fail(SectionId::SkyOffsets, t_.skyOffsets, 0, t_.skyOffsets.size(), " offsets for ",
+                        t_.skyColumns.size(), " sky links");
         if (Status status = checkRows(SectionId::SkyRows, t_.skyRows, t_.patches.size(), t_.skyColumns.size()); !status)
             return status;
         return checkMatrix(SectionId::SkyColumns, t_.skyRows, t_.skyColumns, t_.skyPatches.size(),

@@ -14,6 +14,7 @@
 #include "city/base/hash.h"
 #include "city/base/parallel.h"
 #include "city/light/sequence.h"
+#include "shaders/shared/disc.h"
 
 namespace helio {
 namespace {
@@ -59,8 +60,10 @@ class Walker
 {
 public:
     Walker(const NodeTree& tree, const Visibility& visibility, const PathOptions& options)
-        : tree_(tree), visibility_(visibility), options_(options), sunUp_(options.dni > 0.0 && options.toSun.z > 0.0),
-          plain_(options.farGround * (options.dhi + (sunUp_ ? options.dni * options.toSun.z : 0.0)))
+        : tree_(tree), visibility_(visibility), options_(options), sunFrame_(planeFrame(options.toSun)),
+          sunUp_(options.dni > 0.0 && options.toSun.z > -options.sunRadius),
+          plain_(options.farGround * (options.dhi + options.dni * double(gpu::discCosine(float(options.toSun.z),
+                                                                                         float(options.sunRadius)))))
     {
     }
 
@@ -73,7 +76,7 @@ public:
         for (u32 k = 0; k < paths; ++k) {
             const std::array<double, 4> x = shiftedSobol4(k, shift);
             const glm::dvec3 start = visibility_.pointOnPatch(patch, x[2], x[3]);
-            sum.sun += sunAt(patch, start);
+            sum.sun += sunAt(patch, start, random);
             const glm::dvec3 direction = cosineDirection(frame, x[0], x[1]);
             ++rays;
             const RayHit hit = visibility_.trace(start, frame.normal, direction);
@@ -94,13 +97,25 @@ private:
         return direction.z > 0.0 ? glm::dvec4(options_.dhi) : plain_;
     }
 
-    double sunAt(u32 patch, const glm::dvec3& point)
+    /// A direction to the sun: of a disc, every part of it alike.
+    glm::dvec3 towardsSun(Random& random) const
+    {
+        if (options_.sunRadius == 0.0) return options_.toSun;
+        const double r = std::sin(options_.sunRadius) * std::sqrt(random.uniform());
+        const double phi = 2.0 * std::numbers::pi * random.uniform();
+        return r * std::cos(phi) * sunFrame_.u + r * std::sin(phi) * sunFrame_.v +
+               std::sqrt(1.0 - r * r) * sunFrame_.normal;
+    }
+
+    double sunAt(u32 patch, const glm::dvec3& point, Random& random)
     {
         const glm::dvec3& normal = tree_.nodes[patch].normal;
-        const double cosine = glm::dot(normal, options_.toSun);
-        if (!sunUp_ || cosine <= 0.0) return 0.0;
+        if (!sunUp_ || glm::dot(normal, options_.toSun) <= -options_.sunRadius) return 0.0;
+        const glm::dvec3 toSun = towardsSun(random);
+        const double cosine = glm::dot(normal, toSun);
+        if (cosine <= 0.0 || toSun.z <= 0.0) return 0.0;
         ++rays;
-        return visibility_.isBlocked(point, normal, options_.toSun) ? 0.0 : options_.dni * cosine;
+        return visibility_.isBlocked(point, normal, toSun) ? 0.0 : options_.dni * cosine;
     }
 
     /// An estimate of the radiosity where a ray ends.
@@ -120,7 +135,7 @@ private:
                 ++cutPaths;
                 break;
             }
-            sum += weight * sunAt(hit.patch, hit.point);
+            sum += weight * sunAt(hit.patch, hit.point, random);
             const PlaneFrame frame = planeFrame(tree_.nodes[hit.patch].normal);
             const double x = random.uniform(), y = random.uniform();
             const glm::dvec3 direction = cosineDirection(frame, x, y);
@@ -137,6 +152,7 @@ private:
     const NodeTree& tree_;
     const Visibility& visibility_;
     const PathOptions& options_;
+    const PlaneFrame sunFrame_;
     const bool sunUp_;
     const glm::dvec4 plain_; ///< exitance of the plain beyond the scene
 };

@@ -9,8 +9,9 @@ namespace helio {
 /// The light and the effort of a reference by path tracing.
 struct PathOptions
 {
-    glm::dvec3 toSun{0.0, 0.0, 1.0}; ///< unit vector; at or below the horizon (z <= 0) there is no sun
+    glm::dvec3 toSun{0.0, 0.0, 1.0}; ///< unit vector; what is at or below the horizon (z <= 0) sends nothing
     double dni = 800.0;              ///< W/m2, direct normal irradiance, the same in all channels
+    double sunRadius = 0.0;          ///< rad, of a disc of uniform radiance, which the horizon may cut; 0 = a point
     double dhi = 120.0;              ///< W/m2, of a sky that is uniform above the horizon
     /// Reflectance of an endless plain that paths meet when they leave below the horizon, in the sun and under the sky
     /// with nothing before them; 0 = black.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/packing.hpp>
 #include <mutex>
 #include <numbers>
 
@@ -29,16 +30,25 @@ struct SkyRows
     std::vector<u32> rowEnd; ///< of each patch, from the run's first link
     std::vector<u32> column;
     std::vector<float> factor;
+    std::vector<u32> offset;
 };
 
-/// Ends a patch's row: `cells` are those that rays ended in, `counts` how many. Leaves both empty.
-void endRow(SkyRows& rows, std::vector<u32>& counts, std::vector<u32>& cells, float share)
+/// The rays of a patch that ended in a cell.
+struct CellRays
+{
+    u32 count = 0;
+    glm::dvec2 places{0.0}; ///< their sum
+};
+
+/// Ends a patch's row: `cells` are those that rays ended in. Leaves them and their rays empty.
+void endRow(SkyRows& rows, std::vector<CellRays>& rays, std::vector<u32>& cells, float share)
 {
     std::sort(cells.begin(), cells.end());
     for (const u32 cell : cells) {
         rows.column.push_back(cell);
-        rows.factor.push_back(float(counts[cell]) * share);
-        counts[cell] = 0;
+        rows.factor.push_back(float(rays[cell].count) * share);
+        rows.offset.push_back(glm::packSnorm2x16(glm::vec2(2.0 * rays[cell].places / double(rays[cell].count))));
+        rays[cell] = {};
     }
     cells.clear();
     rows.rowEnd.push_back(u32(rows.column.size()));
@@ -58,6 +68,7 @@ SkyTable joinRows(const SkyDome& dome, const glm::dvec4& farGround, std::vector<
         for (const u32 end : run.rowEnd) table.rowBegin.push_back(u32(first) + end);
         table.column.insert(table.column.end(), run.column.begin(), run.column.end());
         table.factor.insert(table.factor.end(), run.factor.begin(), run.factor.end());
+        if (dome.cellCount() > 1) table.offset.insert(table.offset.end(), run.offset.begin(), run.offset.end());
         run = {};
     }
     return table;
@@ -82,7 +93,7 @@ u32 autoRaysPerPatch(u32 patchCount)
 
 u32 autoSkyPatches(u32 patchCount)
 {
-    return patchCount <= 200'000 ? 96 : 1;
+    return patchCount <= 200'000 ? 48 : 24;
 }
 
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
@@ -102,7 +113,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
     parallelFor(count, kChunk, jobs, [&](u32 begin, u32 end) {
         std::vector<std::pair<u32, u32>>& pairs = pairsOf[begin / kChunk];
         SkyRows& rows = rowsOf[begin / kChunk];
-        std::vector<u32> seen, cells, inCell(dome.cellCount() + 1, 0); // the last: the plain beyond
+        std::vector<u32> seen, cells;
+        std::vector<CellRays> inCell(dome.cellCount() + 1); // the last: the plain beyond
         const float share = 1.0f / float(rays);
         for (u32 patch = begin; patch < end; ++patch) {
             if (tree.patches[patch].covered) {
@@ -123,7 +135,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                 if (hit.patch == kNoIndex && direction.z > 0.0) {
                     ++sky;
                     const u32 cell = dome.cellOf(direction);
-                    if (inCell[cell]++ == 0) cells.push_back(cell);
+                    if (inCell[cell].count++ == 0) cells.push_back(cell);
+                    inCell[cell].places += dome.placeIn(cell, direction);
                 } else if (hit.patch == kNoIndex) {
                     ++below;
                 } else if (!hit.front || tree.patches[hit.patch].covered) {
@@ -134,7 +147,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                 }
             }
             if (plain && below > 0) {
-                inCell[dome.cellCount()] = below;
+                inCell[dome.cellCount()].count = below;
                 cells.push_back(dome.cellCount());
             }
             endRow(rows, inCell, cells, share);

@@ -9,7 +9,8 @@
 
 namespace helio {
 
-/// E_sky = pi sum factor L over the sky links of each patch. radiance: vec4 a sky patch; to: vec4 a patch, W/m2.
+/// E_sky = pi sum factor (L + slope . offset) over the sky links of each patch. radiance: SkyRadianceRecord a sky
+/// patch; to: vec4 a patch, W/m2.
 [[nodiscard]] Ref<Buffer> addSkyEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiance, Ref<Buffer> to);
 
 } // namespace helio

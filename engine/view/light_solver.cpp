@@ -126,7 +126,7 @@ void LightSolver::solveSun(const LightState& light)
                               {!options_.plainHistogram});
     }
     const SunEnergyInput input{glm::vec3(light.towardsSun), glm::vec4(raster ? float(light.dni) : 0.0f),
-                               sunView_.texelArea()};
+                               sunView_.texelArea(), float(light.sunRadius)};
     const SunEnergyRefs energy =
         addSunEnergy(graph, tile_, counts, graph.import(density_), {graph.import(sun_), graph.import(tally_)}, input);
     addReadback(graph, energy.tally, tallyHost_);

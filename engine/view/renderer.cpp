@@ -130,11 +130,10 @@ void Renderer::setSun(double azimuthDeg, double elevationDeg, double dni)
 {
     HELIO_CHECK(std::isfinite(azimuthDeg) && std::isfinite(elevationDeg) && std::isfinite(dni) && dni >= 0.0,
                 "azimuth ", azimuthDeg, ", elevation ", elevationDeg, ", DNI ", dni);
-    impl_->light.towardsSun = sunDirection(azimuthDeg, elevationDeg, impl_->northDeg);
-    impl_->light.dni = dni;
+    setSunDisc(impl_->light, sunDirection(azimuthDeg, elevationDeg, impl_->northDeg), dni);
 }
 
-void Renderer::setSky(double dhi, std::vector<float> radiance)
+void Renderer::setSky(double dhi, std::vector<CellRadiance> radiance)
 {
     HELIO_CHECK(std::isfinite(dhi) && dhi >= 0.0, "DHI ", dhi);
     HELIO_CHECK(radiance.empty() || radiance.size() == skyCellCount(impl_->tile.skyPatches), radiance.size(),

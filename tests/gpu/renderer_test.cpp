@@ -199,7 +199,7 @@ TEST_F(RendererTest, TheGroundBeyondFollowsSunAndSky)
         const double onGround = 120.0 + 800.0 * std::max(0.0, std::sin(elevation * kPi / 180.0));
         for (int c = 0; c < 4; ++c) EXPECT_NEAR(sky[c], 60.0 + 0.5 * rho[c] * onGround, 1e-3) << elevation;
     }
-    renderer->setSky(10.0, {3.0f});
+    renderer->setSky(10.0, {{3.0f, {}}});
     renderer->solve();
     EXPECT_NEAR(renderer->readTables().sky[wall].x, 0.5 * 3.0 * kPi + 0.5 * 0.1 * 10.0, 1e-4)
         << "a sky of its own radiance";

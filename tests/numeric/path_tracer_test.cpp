@@ -193,6 +193,42 @@ TEST(PathTracer, TheGroundBeyondIsLitBySunAndSky)
     EXPECT_LT(above.indirectError.w, 0.02 * above.indirect.w);
 }
 
+TEST(PathTracer, TheSunIsADisc)
+{
+    const double radius = 0.26667 * kDegree, pi = std::numbers::pi;
+    // On edge: 2 / (3 pi) radius. A quarter of a degree from a wall's plane nothing is left of the point either way.
+    const NodeTree wall = makeTree(grid({0, 0, 0}, kY, kZ, 1, 1, {{}, 0}));
+    const auto sunOn = [&](const NodeTree& tree, double azimuth, double elevation, double disc) {
+        return trace(tree, {.toSun = sunDirection(azimuth * kDegree, elevation * kDegree),
+                            .dni = 1000.0,
+                            .sunRadius = disc,
+                            .dhi = 0.0,
+                            .samples = 65536})
+            .patches[0];
+    };
+    const PatchLight edge = sunOn(wall, 180.0, 0.5, radius);
+    EXPECT_NEAR(edge.sun, 1000.0 * 2.0 / (3.0 * pi) * radius, 5.0 * edge.sunError);
+    EXPECT_LT(edge.sunError, 0.01 * edge.sun);
+    EXPECT_EQ(sunOn(wall, 180.0, 0.5, 0.0).sun < 1e-9, true);
+    EXPECT_EQ(sunOn(wall, 180.3, 0.5, radius).sun, 0.0);
+    // The horizon cuts it: half of the disc, on a wall that faces it and on the ground.
+    const PatchLight facing = sunOn(wall, 90.0, 0.0, radius);
+    EXPECT_NEAR(facing.sun, 500.0, 5.0 * facing.sunError);
+    // A shadow's edge across a patch that holds all of its penumbra moves no light out of it; along the patch's border
+    // it does: a border of 0.21 of the penumbra's half width is exchanged.
+    std::vector<Face> faces = grid({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 1, 1, {{}, 0});
+    append(faces, grid({-20, -20, 10}, {20, 0, 0}, {0, 40, 0}, 1, 1, {{}, 1}));
+    const NodeTree halved = makeTree(faces);
+    const PatchLight point = sunOn(halved, 0.0, 90.0, 0.0), disc = sunOn(halved, 0.0, 90.0, radius);
+    EXPECT_NEAR(point.sun, 500.0, 1.0);
+    EXPECT_NEAR(disc.sun, point.sun, 5.0 * std::hypot(point.sunError, disc.sunError));
+    faces[0].ring = grid({0, -1, 0}, {1, 0, 0}, {0, 2, 0}, 1, 1, {{}, 0})[0].ring;
+    const NodeTree beside = makeTree(faces);
+    const double width = 10.0 * radius; // half of the penumbra, m
+    const PatchLight border = sunOn(beside, 0.0, 90.0, radius);
+    EXPECT_NEAR(border.sun, 1000.0 * (1.0 - 2.0 / (3.0 * pi) * width), 5.0 * border.sunError + 0.05);
+}
+
 TEST(PathTracer, ErrorFallsWithTheRootOfThePaths)
 {
     std::vector<Face> faces = room({3, 4, 5}, 1, glm::dvec4(0.5), kBlack);

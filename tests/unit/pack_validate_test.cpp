@@ -98,6 +98,11 @@ TEST(PackValidate, EveryFaultIsNamed)
         {"moments", [](C& c) { c.linkMoments.pop_back(); }, "section link moments, byte 0: 7 moments for 4 links"},
         {"moment", [](C& c) { c.linkMoments[3] = INFINITY; }, "section link moments, byte 12: a moment is not finite"},
         {"sky patch", [](C& c) { c.skyPatches[0].solidAngle = 0; }, "section sky patches, byte 0: sky patch 0"},
+        {"sky offsets",
+         [](C& c) {
+             c.skyOffsets = {1, 2};
+         },
+         "section sky offsets, byte 0: 2 offsets for 3 sky links"},
         {"sky that reflects", [](C& c) { c.skyPatches[0].rho.z = 0.1f; },
          "section sky patches, byte 0: sky patch 0: reflectance 0.1"},
         {"far ground that shines",

@@ -6,7 +6,6 @@
 #include "city/sky/calendar.h"
 #include "city/sky/clear_sky.h"
 #include "city/sky/solar_position.h"
-#include "engine/view/light_state.h"
 
 namespace helio {
 namespace {
@@ -16,7 +15,7 @@ Result<SkyDome> domeOf(const Pack& pack)
 {
     const auto& patches = pack.tile().skyPatches;
     const Error other{
-        "the pack does not know parts of the sky apart: bake it with --sky-patches 96, or use --sky uniform"};
+        "the pack does not know parts of the sky apart: bake it with --sky-patches 48, or use --sky uniform"};
     const u32 cells = skyCellCount(patches);
     if (cells < 2 || cells > SkyDome::kMaxCells) return other;
     const SkyDome dome(cells);
@@ -67,7 +66,9 @@ Result<Daylight> daylightOver(const Pack& pack, const DaylightOptions& options)
             shape = cieSky(options.sky.cieType, toSun);
         else if (light.dhi > 0.0)
             shape = perezSky(light.dni, light.dhi, extraterrestrial, toSun);
-        for (const double value : domeRadiance(*dome, shape, light.dhi)) light.skyRadiance.push_back(float(value));
+        const bool linear = !pack.tile().skyOffsets.empty();
+        for (const CellSky& cell : domeRadiance(*dome, shape, light.dhi, linear))
+            light.skyRadiance.push_back({float(cell.mean), glm::vec2(cell.slope)});
     }
     light.description = concat(when, "sun azimuth ", light.azimuthDeg, " elevation ", light.elevationDeg,
                                " degrees, DNI ", light.dni, ", ", nameOf(options.sky), " DHI ", light.dhi);

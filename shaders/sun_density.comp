@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/records.h"
+#include "shaders/shared/disc.h"
 #include "shaders/shared/sun.h"
 #include "shaders/lib/dispatch.glsl"
 
@@ -18,7 +19,7 @@ void main()
 {
     const uint i = globalIndex(kSunGroup);
     if (i >= params.patchCount) return;
-    const float cosine = dot(patches[i].normal, params.direction);
+    const float cosine = discCosine(dot(patches[i].normal, params.direction), params.discRadius);
     vec4 result = vec4(0.0);
     if (cosine > 0.0) result.xy = vec2(float(counts[i]) * params.texelArea / patches[i].area, cosine);
     density[i] = result;

@@ -36,7 +36,8 @@ void main()
         area = nodes[node].area;
         enough = judged.y * area >= params.minSamples * params.texelArea;
     }
-    const float ratio = judged.x / judged.y;
+    // On edge the raster sees nothing of a patch but strays along its border.
+    const float ratio = enough || own.y >= params.discRadius ? judged.x / judged.y : 0.0;
     irradiance[i] = params.dni * (own.y * min(ratio, 1.0));
     atomicAdd(tally.lit, 1u);
     if (flagged) atomicAdd(tally.flagged, 1u);

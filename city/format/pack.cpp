@@ -59,6 +59,16 @@ Result<Pack> Pack::open(const std::filesystem::path& folder)
     return pack;
 }
 
+u32 skyCellCount(std::span<const gpu::SkyPatchRecord> skyPatches)
+{
+    return u32(skyPatches.size()) - u32(!skyPatches.empty() && skyPatches.back().direction.z < 0.0f);
+}
+
+glm::vec4 farGroundOf(const TileView& tile)
+{
+    return skyCellCount(tile.skyPatches) < tile.skyPatches.size() ? tile.skyPatches.back().rho : glm::vec4(0.0f);
+}
+
 std::vector<std::string> splitNames(std::span<const char> section)
 {
     std::vector<std::string> names;

@@ -58,6 +58,8 @@ struct TileView
     std::span<const char> buildingIds;
     /// One an entry of `children` where there are link moments, else empty: constant senders.
     std::span<const gpu::ChildSlopeRecord> childSlopes;
+    /// One a sky link, or empty: the middle of what the patch sees of the sky patch, two snorm16 (SkyTable::offset).
+    std::span<const u32> skyOffsets;
 };
 
 /// What the links take in the file, bytes; rows not counted.
@@ -65,6 +67,11 @@ struct LinkBytes
 {
     u64 columns = 0, factors = 0, moments = 0;
 };
+
+/// Number of sky patches that are parts of the sky: all but the ground beyond the scene, which comes last if at all.
+u32 skyCellCount(std::span<const gpu::SkyPatchRecord> skyPatches);
+/// Reflectance of the ground beyond the scene; 0 = there is none.
+glm::vec4 farGroundOf(const TileView& tile);
 
 /// A pack opened for reading. Every offset, count and index in it has been checked against its bounds.
 class Pack

@@ -32,9 +32,10 @@ enum class SectionId : u32
     NodeNames,
     SurfaceNames,
     BuildingIds,
-    ChildSlopes
+    ChildSlopes,
+    SkyOffsets
 };
-inline constexpr u32 kSectionCount = u32(SectionId::ChildSlopes);
+inline constexpr u32 kSectionCount = u32(SectionId::SkyOffsets);
 
 /// Calls visit(id, name, span) for every section of a TileView (const or not), by rising id.
 template <class View, class Visit> void forEachSection(View& tile, Visit&& visit)
@@ -63,6 +64,7 @@ template <class View, class Visit> void forEachSection(View& tile, Visit&& visit
     visit(SectionId::SurfaceNames, "surface names", tile.surfaceNames);
     visit(SectionId::BuildingIds, "building ids", tile.buildingIds);
     visit(SectionId::ChildSlopes, "child slopes", tile.childSlopes);
+    visit(SectionId::SkyOffsets, "sky offsets", tile.skyOffsets);
 }
 
 /// How a section's bytes are stored.

@@ -257,7 +257,17 @@ private:
             if (!isUnit(sky.direction) || !(sky.solidAngle > 0.0f && sky.solidAngle < 12.57f))
                 return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i,
                             " has no direction or a solid angle outside 0..4 pi");
+            const bool ground = sky.direction.z < 0.0f;
+            if (ground && i + 1 < t_.skyPatches.size())
+                return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i,
+                            " lies below the horizon and is not the last");
+            for (int c = 0; c < 4; ++c)
+                if (ground ? !inUnit(sky.rho[c]) : sky.rho[c] != 0.0f)
+                    return fail(SectionId::SkyPatches, t_.skyPatches, i, "sky patch ", i, ": reflectance ", sky.rho[c]);
         }
+        if (!t_.skyOffsets.empty() && t_.skyOffsets.size() != t_.skyColumns.size())
+            return fail(SectionId::SkyOffsets, t_.skyOffsets, 0, t_.skyOffsets.size(), " offsets for ",
+                        t_.skyColumns.size(), " sky links");
         if (Status status = checkRows(SectionId::SkyRows, t_.skyRows, t_.patches.size(), t_.skyColumns.size()); !status)
             return status;
         return checkMatrix(SectionId::SkyColumns, t_.skyRows, t_.skyColumns, t_.skyPatches.size(),

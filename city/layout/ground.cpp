@@ -210,7 +210,7 @@ void addGround(Layout& layout, const GroundOptions& options)
     Paths pavement;
     if (options.pavementWidth > 0.0) pavement = offset(buildings, options.pavementWidth);
     regions.push_back({kindIndex(cutter.kinds, "pavement"), std::move(pavement)});
-    regions.push_back({kindIndex(cutter.kinds, "street"), {cutter.outlineOf(all)}});
+    regions.push_back({kindIndex(cutter.kinds, kOuterGround), {cutter.outlineOf(all)}});
     // Earlier kinds win; each takes its share of what is left, so that the shares tile the ground.
     Paths rest = subtract({cutter.outlineOf(all)}, buildings);
     for (Region& region : regions) {

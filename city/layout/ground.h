@@ -5,6 +5,9 @@
 
 namespace helio {
 
+/// What the ground is beyond everything that a layout says of it.
+inline constexpr const char* kOuterGround = "street";
+
 struct GroundOptions
 {
     double cellSize = 4.0; ///< m, > 0: largest side of a piece; doubled (with a note) until there are at most maxCells
@@ -15,7 +18,7 @@ struct GroundOptions
 
 /// Fills Layout::ground with everything that no footprint covers: the bounding box with its margin, cut along a grid,
 /// each piece of one kind at z = 0 facing up. Kinds: those of the areas that the layout already holds (lawns, say; they
-/// are cut up too), "court" where buildings enclose it, "pavement" along the other facades, "street" for the rest.
+/// are cut up too), "court" where buildings enclose it, "pavement" along the other facades, kOuterGround for the rest.
 /// Pieces tile the ground on a grid of 0.1 mm; pieces below 0.001 m2 are dropped. GroundArea::block numbers squares of
 /// 16 x 16 cells. A layout without footprints gets no ground.
 void addGround(Layout& layout, const GroundOptions& options = {});

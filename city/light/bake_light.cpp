@@ -88,6 +88,7 @@ void summariseRows(const NodeTree& tree, const LinkTable& links, const SkyScan& 
     stats.rowSum = summarise(tree, open, rowSums);
     stats.rayRowSum = summarise(tree, open, scan.rowSum);
     stats.sky = summarise(tree, open, scan.sky);
+    stats.below = summarise(tree, open, scan.below);
     if (stats.rayRowSum.mean > 0.0) stats.closureDefect = stats.rowSum.mean / stats.rayRowSum.mean - 1.0;
 }
 
@@ -154,8 +155,10 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
     stats.raysPerPatch = options.raysPerPatch > 0 ? options.raysPerPatch : chooseRays(options.error, tree.patchCount());
     const SkyDome dome(options.skyPatches > 0 ? options.skyPatches : autoSkyPatches(tree.patchCount()));
     SkyScan scan = steps.run("sky", [&](auto progress) {
-        return scanSky(tree, *visibility, stats.raysPerPatch, options.seed, options.jobs, progress, dome);
+        return scanSky(tree, *visibility, stats.raysPerPatch, options.seed, options.jobs, progress, dome,
+                       options.farGround);
     });
+    stats.farGround = options.farGround != glm::dvec4(0.0);
     stats.rootPairCount = u32(scan.rootPairs.size());
 
     const auto makeRows = [&](std::span<const NodeLink> links, std::vector<gpu::ChildSlopeRecord> slopes) {

@@ -36,6 +36,8 @@ struct LightOptions
     bool leafReceivers = false; ///< Heliopolis: links end at patches alone (rows without push-down)
     u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = by `error` and the number of patches, 128 to 1024
     u32 skyPatches = 1;   ///< cells of the sky's dome; 1 = for uniform skies only, 0 = autoSkyPatches
+    /// Reflectance of an endless plain beyond the scene, a last sky patch; 0 = the scene ends in the void.
+    glm::dvec4 farGround{0.0};
     u32 raysPerLink = 0;  ///< visibility rays of a pair of parts where a link is seen in part (it has up to 64 such); 0 = 2
     double cutoff = 22.5; ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
     u32 jobs = 0;         ///< threads; 0 = all cores. The result does not depend on it.
@@ -67,6 +69,7 @@ struct LightStats
     u64 pairsEvaluated = 0;         ///< node pairs that the oracle looked at
     double formFactorEpsilon = 0.0; ///< as used: the option or the method's default
     u32 raysPerPatch = 0;           ///< as used
+    bool farGround = false;         ///< what leaves below the horizon meets a plain that sends light back
     u32 raysPerLink = 0;            ///< as used; 0 for the paper methods, which shoot none
     /// Patches of which more than 1 % of the rays meet back sides: walls against a neighbour's wall or inside a solid.
     /// What they see hangs on the order of coincident faces; the sums below leave them out.
@@ -80,6 +83,7 @@ struct LightStats
     MinMeanMax rowSum;          ///< per patch: links, own and ancestors'
     MinMeanMax rayRowSum;       ///< per patch: fraction of its rays that hit a lit side
     MinMeanMax sky;             ///< per patch: fraction of its rays that reach the sky
+    MinMeanMax below;           ///< per patch: fraction of its rays that leave below the horizon
     double closureDefect = 0.0; ///< mean(rowSum) / mean(rayRowSum) - 1; more than 1 % away from 0 means missing senders
     std::vector<StepSeconds> seconds;
 };

@@ -19,13 +19,17 @@ struct LinkTable
     std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to NodeTree::children where there are moments
 };
 
-/// Sky links in rows by patch: E_sky_i = pi * sum factor * radiance(column). The sky patches are the cells of a SkyDome.
+/// Sky links in rows by patch: E_sky_i = pi * sum factor * (radiance + slope . offset)(column). The sky patches are the
+/// cells of a SkyDome, and after them the ground beyond the scene where there is one.
 struct SkyTable
 {
     std::vector<gpu::SkyPatchRecord> skyPatches;
     std::vector<u32> rowBegin; ///< patchCount + 1
     std::vector<u32> column;
     std::vector<float> factor;
+    /// Mean of SkyDome::placeIn over what the patch sees of the cell, times 2, as two snorm16 (x in the low half); empty
+    /// with a dome of one cell.
+    std::vector<u32> offset;
 };
 
 } // namespace helio

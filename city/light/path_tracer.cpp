@@ -14,6 +14,7 @@
 #include "city/base/hash.h"
 #include "city/base/parallel.h"
 #include "city/light/sequence.h"
+#include "shaders/shared/disc.h"
 
 namespace helio {
 namespace {
@@ -50,8 +51,8 @@ template <class T> struct Spread
 /// What a path or the mean of some paths brings.
 struct Gathered
 {
-    double sun = 0.0, sky = 0.0;
-    glm::dvec4 indirect{0.0};
+    double sun = 0.0;
+    glm::dvec4 sky{0.0}, indirect{0.0};
 };
 
 /// One thread's paths.
@@ -59,7 +60,10 @@ class Walker
 {
 public:
     Walker(const NodeTree& tree, const Visibility& visibility, const PathOptions& options)
-        : tree_(tree), visibility_(visibility), options_(options), sunUp_(options.dni > 0.0 && options.toSun.z > 0.0)
+        : tree_(tree), visibility_(visibility), options_(options), sunFrame_(planeFrame(options.toSun)),
+          sunUp_(options.dni > 0.0 && options.toSun.z > -options.sunRadius),
+          plain_(options.farGround * (options.dhi + options.dni * double(gpu::discCosine(float(options.toSun.z),
+                                                                                         float(options.sunRadius)))))
     {
     }
 
@@ -72,28 +76,46 @@ public:
         for (u32 k = 0; k < paths; ++k) {
             const std::array<double, 4> x = shiftedSobol4(k, shift);
             const glm::dvec3 start = visibility_.pointOnPatch(patch, x[2], x[3]);
-            sum.sun += sunAt(patch, start);
+            sum.sun += sunAt(patch, start, random);
             const glm::dvec3 direction = cosineDirection(frame, x[0], x[1]);
             ++rays;
             const RayHit hit = visibility_.trace(start, frame.normal, direction);
             if (hit.patch == kNoIndex)
-                sum.sky += direction.z > 0.0 ? options_.dhi : 0.0;
+                sum.sky += outside(direction);
             else
                 sum.indirect += radiosityAt(hit, random);
         }
-        return {sum.sun / paths, sum.sky / paths, sum.indirect / double(paths)};
+        return {sum.sun / paths, sum.sky / double(paths), sum.indirect / double(paths)};
     }
 
     u64 rays = 0, cutPaths = 0;
 
 private:
-    double sunAt(u32 patch, const glm::dvec3& point)
+    /// pi x the radiance that comes from outside the scene against a direction.
+    glm::dvec4 outside(const glm::dvec3& direction) const
+    {
+        return direction.z > 0.0 ? glm::dvec4(options_.dhi) : plain_;
+    }
+
+    /// A direction to the sun: of a disc, every part of it alike.
+    glm::dvec3 towardsSun(Random& random) const
+    {
+        if (options_.sunRadius == 0.0) return options_.toSun;
+        const double r = std::sin(options_.sunRadius) * std::sqrt(random.uniform());
+        const double phi = 2.0 * std::numbers::pi * random.uniform();
+        return r * std::cos(phi) * sunFrame_.u + r * std::sin(phi) * sunFrame_.v +
+               std::sqrt(1.0 - r * r) * sunFrame_.normal;
+    }
+
+    double sunAt(u32 patch, const glm::dvec3& point, Random& random)
     {
         const glm::dvec3& normal = tree_.nodes[patch].normal;
-        const double cosine = glm::dot(normal, options_.toSun);
-        if (!sunUp_ || cosine <= 0.0) return 0.0;
+        if (!sunUp_ || glm::dot(normal, options_.toSun) <= -options_.sunRadius) return 0.0;
+        const glm::dvec3 toSun = towardsSun(random);
+        const double cosine = glm::dot(normal, toSun);
+        if (cosine <= 0.0 || toSun.z <= 0.0) return 0.0;
         ++rays;
-        return visibility_.isBlocked(point, normal, options_.toSun) ? 0.0 : options_.dni * cosine;
+        return visibility_.isBlocked(point, normal, toSun) ? 0.0 : options_.dni * cosine;
     }
 
     /// An estimate of the radiosity where a ray ends.
@@ -113,14 +135,14 @@ private:
                 ++cutPaths;
                 break;
             }
-            sum += weight * sunAt(hit.patch, hit.point);
+            sum += weight * sunAt(hit.patch, hit.point, random);
             const PlaneFrame frame = planeFrame(tree_.nodes[hit.patch].normal);
             const double x = random.uniform(), y = random.uniform();
             const glm::dvec3 direction = cosineDirection(frame, x, y);
             ++rays;
             hit = visibility_.trace(hit.point, frame.normal, direction);
             if (hit.patch == kNoIndex) {
-                if (direction.z > 0.0) sum += weight * options_.dhi;
+                sum += weight * outside(direction);
                 break;
             }
         }
@@ -130,7 +152,9 @@ private:
     const NodeTree& tree_;
     const Visibility& visibility_;
     const PathOptions& options_;
+    const PlaneFrame sunFrame_;
     const bool sunUp_;
+    const glm::dvec4 plain_; ///< exitance of the plain beyond the scene
 };
 
 } // namespace
@@ -154,8 +178,8 @@ PathReference tracePaths(const NodeTree& tree, const Visibility& visibility, con
             if (tree.patches[patch].covered) continue;
             const PlaneFrame frame = planeFrame(tree.nodes[patch].normal);
             const u64 seed = mixSeed(mixSeed(options.seed, 0xbeac), patch);
-            Spread<double> sun, sky;
-            Spread<glm::dvec4> indirect, total;
+            Spread<double> sun;
+            Spread<glm::dvec4> sky, indirect, total;
             for (u32 g = 1; g <= out.groups; ++g) {
                 const Gathered mean = walker.group(patch, frame, perGroup, mixSeed(seed, g));
                 sun.add(mean.sun, g);

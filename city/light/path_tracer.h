@@ -9,22 +9,26 @@ namespace helio {
 /// The light and the effort of a reference by path tracing.
 struct PathOptions
 {
-    glm::dvec3 toSun{0.0, 0.0, 1.0}; ///< unit vector; at or below the horizon (z <= 0) there is no sun
+    glm::dvec3 toSun{0.0, 0.0, 1.0}; ///< unit vector; what is at or below the horizon (z <= 0) sends nothing
     double dni = 800.0;              ///< W/m2, direct normal irradiance, the same in all channels
-    double dhi = 120.0;              ///< W/m2, of a sky that is uniform above the horizon and black below it
-    bool emission = true;            ///< what patches emit themselves
-    u32 samples = 256;               ///< paths a patch, at least 2
+    double sunRadius = 0.0;          ///< rad, of a disc of uniform radiance, which the horizon may cut; 0 = a point
+    double dhi = 120.0;              ///< W/m2, of a sky that is uniform above the horizon
+    /// Reflectance of an endless plain that paths meet when they leave below the horizon, in the sun and under the sky
+    /// with nothing before them; 0 = black.
+    glm::dvec4 farGround{0.0};
+    bool emission = true; ///< what patches emit themselves
+    u32 samples = 256;    ///< paths a patch, at least 2
     u64 seed = 1;
     u32 jobs = 0; ///< threads, 0 = all cores; the result does not depend on it
     /// Gets the fraction done, from one thread at a time; false ends the work early. May be empty.
     std::function<bool(double)> progress = {};
 };
 
-/// Mean irradiance of one patch and its standard error, W/m2. Sun and sky are the same in all channels.
+/// Mean irradiance of one patch and its standard error, W/m2. The sun is the same in all channels.
 struct PatchLight
 {
     double sun = 0.0, sunError = 0.0;
-    double sky = 0.0, skyError = 0.0; ///< first-hand sky light
+    glm::dvec4 sky{0.0}, skyError{0.0}; ///< first-hand light from outside the scene: the sky and the plain beyond
     glm::dvec4 indirect{0.0}, indirectError{0.0};
     glm::dvec4 totalError{0.0}; ///< of the sum: its parts share rays, so their errors do not simply add
 };

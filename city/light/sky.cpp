@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/packing.hpp>
 #include <mutex>
 #include <numbers>
 
@@ -28,26 +29,37 @@ struct SkyRows
     std::vector<u32> rowEnd; ///< of each patch, from the run's first link
     std::vector<u32> column;
     std::vector<float> factor;
+    std::vector<u32> offset;
 };
 
-/// Ends a patch's row: `cells` are those that rays ended in, `counts` how many. Leaves both empty.
-void endRow(SkyRows& rows, std::vector<u32>& counts, std::vector<u32>& cells, float share)
+/// The rays of a patch that ended in a cell.
+struct CellRays
+{
+    u32 count = 0;
+    glm::dvec2 places{0.0}; ///< their sum
+};
+
+/// Ends a patch's row: `cells` are those that rays ended in. Leaves them and their rays empty.
+void endRow(SkyRows& rows, std::vector<CellRays>& rays, std::vector<u32>& cells, float share)
 {
     std::sort(cells.begin(), cells.end());
     for (const u32 cell : cells) {
         rows.column.push_back(cell);
-        rows.factor.push_back(float(counts[cell]) * share);
-        counts[cell] = 0;
+        rows.factor.push_back(float(rays[cell].count) * share);
+        rows.offset.push_back(glm::packSnorm2x16(glm::vec2(2.0 * rays[cell].places / double(rays[cell].count))));
+        rays[cell] = {};
     }
     cells.clear();
     rows.rowEnd.push_back(u32(rows.column.size()));
 }
 
-SkyTable joinRows(const SkyDome& dome, std::vector<SkyRows>& runs)
+SkyTable joinRows(const SkyDome& dome, const glm::dvec4& farGround, std::vector<SkyRows>& runs)
 {
     SkyTable table;
     for (u32 cell = 0; cell < dome.cellCount(); ++cell)
-        table.skyPatches.push_back({glm::vec3(dome.centreOf(cell)), float(dome.solidAngle())});
+        table.skyPatches.push_back({glm::vec3(dome.centreOf(cell)), float(dome.solidAngle()), glm::vec4(0.0f)});
+    if (farGround != glm::dvec4(0.0))
+        table.skyPatches.push_back({glm::vec3(0, 0, -1), float(2.0 * std::numbers::pi), glm::vec4(farGround)});
     table.rowBegin.push_back(0);
     for (SkyRows& run : runs) {
         const u64 first = table.column.size();
@@ -55,6 +67,7 @@ SkyTable joinRows(const SkyDome& dome, std::vector<SkyRows>& runs)
         for (const u32 end : run.rowEnd) table.rowBegin.push_back(u32(first) + end);
         table.column.insert(table.column.end(), run.column.begin(), run.column.end());
         table.factor.insert(table.factor.end(), run.factor.begin(), run.factor.end());
+        if (dome.cellCount() > 1) table.offset.insert(table.offset.end(), run.offset.begin(), run.offset.end());
         run = {};
     }
     return table;
@@ -74,13 +87,14 @@ std::vector<u32> planarRoots(const NodeTree& tree)
 
 u32 autoSkyPatches(u32 patchCount)
 {
-    return patchCount <= 200'000 ? 96 : 1;
+    return patchCount <= 200'000 ? 48 : 24;
 }
 
 SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u64 seed, u32 jobs,
-                const std::function<void(double)>& progress, const SkyDome& dome)
+                const std::function<void(double)>& progress, const SkyDome& dome, const glm::dvec4& farGround)
 {
     HELIO_CHECK(rays > 0, "rays = ", rays);
+    const bool plain = farGround != glm::dvec4(0.0);
     const u32 count = tree.patchCount();
     const std::vector<u32> root = planarRoots(tree);
     SkyScan scan;
@@ -93,7 +107,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
     parallelFor(count, kChunk, jobs, [&](u32 begin, u32 end) {
         std::vector<std::pair<u32, u32>>& pairs = pairsOf[begin / kChunk];
         SkyRows& rows = rowsOf[begin / kChunk];
-        std::vector<u32> seen, cells, inCell(dome.cellCount(), 0);
+        std::vector<u32> seen, cells;
+        std::vector<CellRays> inCell(dome.cellCount() + 1); // the last: the plain beyond
         const float share = 1.0f / float(rays);
         for (u32 patch = begin; patch < end; ++patch) {
             if (tree.patches[patch].covered) {
@@ -114,7 +129,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                 if (hit.patch == kNoIndex && direction.z > 0.0) {
                     ++sky;
                     const u32 cell = dome.cellOf(direction);
-                    if (inCell[cell]++ == 0) cells.push_back(cell);
+                    if (inCell[cell].count++ == 0) cells.push_back(cell);
+                    inCell[cell].places += dome.placeIn(cell, direction);
                 } else if (hit.patch == kNoIndex) {
                     ++below;
                 } else if (!hit.front || tree.patches[hit.patch].covered) {
@@ -123,6 +139,10 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
                     ++front;
                     if (seen.empty() || seen.back() != root[hit.patch]) seen.push_back(root[hit.patch]);
                 }
+            }
+            if (plain && below > 0) {
+                inCell[dome.cellCount()].count = below;
+                cells.push_back(dome.cellCount());
             }
             endRow(rows, inCell, cells, share);
             scan.sky[patch] = float(sky) * share;
@@ -144,7 +164,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         pairs = {};
     }
     sortUnique(scan.rootPairs);
-    scan.links = joinRows(dome, rowsOf);
+    scan.links = joinRows(dome, farGround, rowsOf);
     return scan;
 }
 

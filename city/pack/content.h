@@ -25,6 +25,7 @@ struct PackContent
     std::vector<gpu::DrawRecord> draws;
     std::string nodeNames, surfaceNames, buildingIds; ///< '\n'-terminated names
     std::vector<gpu::ChildSlopeRecord> childSlopes;
+    std::vector<u32> skyOffsets;
 
     /// Spans of the vectors, valid until one of them changes.
     TileView view() const
@@ -52,7 +53,8 @@ struct PackContent
                 .nodeNames = nodeNames,
                 .surfaceNames = surfaceNames,
                 .buildingIds = buildingIds,
-                .childSlopes = childSlopes};
+                .childSlopes = childSlopes,
+                .skyOffsets = skyOffsets};
     }
 };
 

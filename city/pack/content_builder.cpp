@@ -96,12 +96,14 @@ public:
         c_.linkRows = std::move(light.links.rowBegin);
         c_.linkColumns = std::move(light.links.column);
         c_.linkFactors = std::move(light.links.factor);
-        for (const glm::vec2& moment : light.links.moment) c_.linkMoments.insert(c_.linkMoments.end(), {moment.x, moment.y});
+        for (const glm::vec2& moment : light.links.moment)
+            c_.linkMoments.insert(c_.linkMoments.end(), {moment.x, moment.y});
         c_.childSlopes = std::move(light.links.childSlopes);
         c_.skyPatches = std::move(light.sky.skyPatches);
         c_.skyRows = std::move(light.sky.rowBegin);
         c_.skyColumns = std::move(light.sky.column);
         c_.skyFactors = std::move(light.sky.factor);
+        c_.skyOffsets = std::move(light.sky.offset);
         addStaticMesh();
         addAssets();
         c_.nodeNames = joinNames(tree_.names);

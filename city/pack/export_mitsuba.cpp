@@ -60,11 +60,12 @@ std::string plyText(const TileView& tile, std::span<const u32> patches)
 }
 
 /// Rows of a PFM file run from below to above, and so does the sky: nadir first.
-std::string skyMap(double radiance)
+std::string skyMap(double radiance, const glm::dvec3& farGround)
 {
     std::string bytes = concat("PF\n", kSkyColumns, " ", kSkyRows, "\n-1.0\n");
     for (u32 row = 0; row < kSkyRows; ++row)
-        for (u32 k = 0; k < 3 * kSkyColumns; ++k) appendBytes(bytes, row < kSkyRows / 2 ? 0.0f : float(radiance));
+        for (u32 k = 0; k < 3 * kSkyColumns; ++k)
+            appendBytes(bytes, float(row < kSkyRows / 2 ? farGround[int(k % 3)] : radiance));
     return bytes;
 }
 
@@ -97,7 +98,7 @@ std::string shapeText(const std::string& file, u32 material, const Surface6& s, 
     return text + "  </shape>\n";
 }
 
-std::string lightText(const SceneLight& light, const std::string& stem)
+std::string lightText(const SceneLight& light, const glm::dvec3& farGround, const std::string& stem)
 {
     std::string text;
     if (light.toSun.z > 0.0 && light.dni > 0.0) {
@@ -111,7 +112,7 @@ std::string lightText(const SceneLight& light, const std::string& stem)
         }
         text += "/>\n  </emitter>\n";
     }
-    if (light.dhi > 0.0)
+    if (light.dhi > 0.0 || farGround != glm::dvec3(0.0))
         text += concat("  <emitter type=\"envmap\">\n    <string name=\"filename\" value=\"", stem,
                        "_sky.pfm\"/>\n    <transform name=\"to_world\"><rotate x=\"1\" angle=\"90\"/></transform>\n"
                        "  </emitter>\n");
@@ -134,7 +135,8 @@ MitsubaScene exportMitsuba(const Pack& pack, const SceneLight& light, const std:
         "<!-- metres, z up, +y grid north; light in W/m2 -->\n"
         "<scene version=\"3.0.0\">\n  <integrator type=\"path\">\n    <integer name=\"max_depth\" value=\"-1\"/>\n"
         "    <integer name=\"rr_depth\" value=\"4\"/>\n  </integrator>\n";
-    scene.xml += lightText(light, stem);
+    const glm::dvec3 farGround = farGroundRadiance(pack, light);
+    scene.xml += lightText(light, farGround, stem);
     std::string shapes;
     u32 material = 0;
     for (const auto& [surface, patches] : patchesByMaterial(tile)) {
@@ -160,7 +162,8 @@ MitsubaScene exportMitsuba(const Pack& pack, const SceneLight& light, const std:
         ++material;
     }
     scene.xml += shapes + "</scene>\n";
-    if (light.dhi > 0.0) scene.files.emplace_back(stem + "_sky.pfm", skyMap(light.dhi / std::numbers::pi));
+    if (light.dhi > 0.0 || farGround != glm::dvec3(0.0))
+        scene.files.emplace_back(stem + "_sky.pfm", skyMap(light.dhi / std::numbers::pi, farGround));
     scene.files.emplace_back(stem + "_points.txt", sensorPoints(pack, light.pointsPerPatch));
     return scene;
 }

@@ -49,7 +49,7 @@ void appendPolygon(std::string& text, const std::string& material, u32 patch, co
     text += "\n";
 }
 
-std::string lightText(const SceneLight& light)
+std::string lightText(const SceneLight& light, const glm::dvec3& farGround)
 {
     std::string text = "# sun and sky, W/m2/sr\n";
     if (light.toSun.z > 0.0 && light.dni > 0.0) {
@@ -65,6 +65,11 @@ std::string lightText(const SceneLight& light)
         text += "void glow sky_glow\n0\n0\n4";
         for (int c = 0; c < 3; ++c) appendNumber(text, light.dhi / kPi);
         text += " 0\nsky_glow source sky\n0\n0\n4 0 0 1 180\n";
+    }
+    if (farGround != glm::dvec3(0.0)) {
+        text += "# the ground beyond the scene, in the sun and under the sky\nvoid glow ground_glow\n0\n0\n4";
+        for (int c = 0; c < 3; ++c) appendNumber(text, farGround[c]);
+        text += " 0\nground_glow source ground\n0\n0\n4 0 0 -1 180\n";
     }
     return text;
 }
@@ -84,7 +89,7 @@ RadianceText exportRadiance(const Pack& pack, const SceneLight& light)
         for (const u32 i : patches)
             appendPolygon(text.scene, name, i, joinRings(outlineRings(tile, i), glm::dvec3(tile.patches[i].normal)));
     }
-    text.light = lightText(light);
+    text.light = lightText(light, farGroundRadiance(pack, light));
     text.points = sensorPoints(pack, light.pointsPerPatch);
     text.readme = concat(
         pack.patchCount(), " patches. Line K x ", light.pointsPerPatch,

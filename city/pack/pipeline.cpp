@@ -205,7 +205,10 @@ private:
     Status lightTree()
     {
         clock_.begin("light");
-        LightBake light = bakeLight(build_, summaries_, options_.light);
+        LightOptions lighting = options_.light;
+        // A scene of polygons is lit as it is; around a city the ground goes on.
+        if (options_.surfaces.empty()) lighting.farGround = groundSurface(kOuterGround).rho;
+        LightBake light = bakeLight(build_, summaries_, lighting);
         out_.stats.light = light.stats;
         clock_.begin("content");
         PackIndex index = std::move(out_.content.index);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/pack/scene_light.h"
 
+#include <algorithm>
 #include <charconv>
+#include <numbers>
 
 #include "city/base/hash.h"
 #include "city/light/sequence.h"
@@ -14,6 +16,12 @@ namespace {
 constexpr double kLift = 1e-3; // m, so that a sensor does not lie behind the polygon that it measures
 
 } // namespace
+
+glm::dvec3 farGroundRadiance(const Pack& pack, const SceneLight& light)
+{
+    const double onGround = light.dhi + light.dni * std::max(light.toSun.z, 0.0);
+    return glm::dvec3(farGroundOf(pack.tile())) * (onGround / std::numbers::pi);
+}
 
 std::map<Surface6, std::vector<u32>> patchesByMaterial(const TileView& tile)
 {

@@ -14,9 +14,13 @@ namespace helio {
 struct SceneLight
 {
     glm::dvec3 toSun{0.0, 0.0, 1.0}; ///< unit vector; at or below the horizon there is no sun
-    double dni = 800.0, dhi = 120.0; ///< W/m2; the sky is uniform above the horizon and black below it
+    double dni = 800.0, dhi = 120.0; ///< W/m2; the sky is uniform above the horizon
     u32 pointsPerPatch = 16;         ///< sensor points, at least 1
 };
+
+/// Radiance of the ground beyond the scene, W/m2/sr, red, green, blue: rho / pi (DNI sin(elevation) + DHI); 0 where the
+/// pack has none.
+glm::dvec3 farGroundRadiance(const Pack& pack, const SceneLight& light);
 
 /// Red, green and blue reflectance and emission: patches that share them share a material.
 using Surface6 = std::array<float, 6>;

@@ -61,6 +61,7 @@ void lightLines(std::string& text, const LightStats& light)
     rangeLine(text, "row sum of links", light.rowSum);
     rangeLine(text, "row sum by rays", light.rayRowSum);
     rangeLine(text, "sky by rays", light.sky);
+    rangeLine(text, light.farGround ? "far ground by rays" : "void by rays", light.below);
     line(text, "  %-20s %+.3f %%%s", "closure defect", 100.0 * light.closureDefect,
          std::abs(light.closureDefect) > 0.01 ? "  (more than 1 %: senders are missing or counted twice)" : "");
     if (light.insidePatchCount > 0)
@@ -99,6 +100,8 @@ void addLight(nlohmann::ordered_json& json, const LightStats& light)
     json["row_sum_links"] = rangeJson(light.rowSum);
     json["row_sum_rays"] = rangeJson(light.rayRowSum);
     json["sky_rays"] = rangeJson(light.sky);
+    json["far_ground"] = light.farGround;
+    json["below_horizon_rays"] = rangeJson(light.below);
     json["closure_defect"] = light.closureDefect;
     json["inside_patches"] = light.insidePatchCount;
     json["inside_area_share"] = light.insideAreaShare;

@@ -64,6 +64,28 @@ glm::dvec3 SkyDome::centreOf(u32 cell) const
     return cell == 0 ? glm::dvec3(0.0, 0.0, 1.0) : pointOf(cell, 0.5, 0.5);
 }
 
+glm::dvec2 SkyDome::placeIn(u32 cell, const glm::dvec3& direction) const
+{
+    HELIO_CHECK(cell < cellCount(), "cell ", cell, " of ", cellCount());
+    const u32 ring = ringOf(cell), first = firstOfRing_[ring], count = firstOfRing_[ring + 1] - first;
+    const double top = cosineAbove(ring), bottom = cosineAbove(ring + 1);
+    const auto inside = [](double x) { return std::clamp(x, -0.5, 0.5); };
+    if (cell == 0) {
+        const double width = 2.0 * std::sqrt(1.0 - bottom * bottom);
+        return {inside(direction.x / width), inside(direction.y / width)};
+    }
+    const double turn = std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi);
+    return {inside((turn < 0.0 ? turn + 1.0 : turn) * count - (cell - first) - 0.5),
+            inside((direction.z - top) / (bottom - top) - 0.5)};
+}
+
+double SkyDome::projectedHeight(u32 cell) const
+{
+    HELIO_CHECK(cell < cellCount(), "cell ", cell, " of ", cellCount());
+    const u32 ring = ringOf(cell);
+    return cell == 0 ? 0.0 : solidAngle() * (cosineAbove(ring + 1) - cosineAbove(ring)) / 12.0;
+}
+
 double SkyDome::projectedSolidAngle(u32 cell) const
 {
     HELIO_CHECK(cell < cellCount(), "cell ", cell, " of ", cellCount());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -32,8 +33,16 @@ public:
     /// Unit vector to a cell's centre; the zenith for the cap.
     glm::dvec3 centreOf(u32 cell) const;
 
+    /// Where in its cell an upward direction lies, in [-0.5, 0.5]: azimuth and height, downwards, in equal areas; in
+    /// the cap, whose azimuth says nothing, its x and y over the cap's width.
+    glm::dvec2 placeIn(u32 cell, const glm::dvec3& direction) const;
+
     /// Integral of the cosine to the zenith over a cell, sr. They sum to pi.
     double projectedSolidAngle(u32 cell) const;
+
+    /// Integral over a cell of the cosine to the zenith times the second coordinate of placeIn, sr; with the first it
+    /// is 0.
+    double projectedHeight(u32 cell) const;
 
 private:
     u32 ringOf(u32 cell) const;

@@ -170,21 +170,39 @@ SkyShape perezSky(double dni, double dhi, double extraterrestrial, const glm::dv
     return sky;
 }
 
-std::vector<double> domeRadiance(const SkyDome& dome, const SkyShape& shape, double dhi)
+std::vector<CellSky> domeRadiance(const SkyDome& dome, const SkyShape& shape, double dhi, bool linear)
 {
     constexpr u32 kSamples = 8; // along each side of a cell, and more where cells are large
     const u32 samples = std::max(kSamples, u32(std::lround(std::sqrt(20000.0 / dome.cellCount()))));
-    std::vector<double> radiance(dome.cellCount());
+    std::vector<CellSky> radiance(dome.cellCount());
     double irradiance = 0.0;
     for (u32 cell = 0; cell < dome.cellCount(); ++cell) {
         double sum = 0.0;
+        glm::dvec2 moment(0.0), squares(0.0);
         for (u32 i = 0; i < samples; ++i)
-            for (u32 j = 0; j < samples; ++j)
-                sum += shape(dome.pointOf(cell, (i + 0.5) / samples, (j + 0.5) / samples));
-        radiance[cell] = sum / (samples * samples);
-        irradiance += radiance[cell] * dome.projectedSolidAngle(cell);
+            for (u32 j = 0; j < samples; ++j) {
+                const glm::dvec3 direction = dome.pointOf(cell, (i + 0.5) / samples, (j + 0.5) / samples);
+                const glm::dvec2 place = dome.placeIn(cell, direction);
+                const double value = shape(direction);
+                sum += value;
+                moment += value * place;
+                squares += place * place;
+            }
+        CellSky& sky = radiance[cell];
+        sky.mean = sum / (samples * samples);
+        if (linear) {
+            sky.slope = moment / squares;
+            const double steepest = std::abs(sky.slope.x) + std::abs(sky.slope.y);
+            if (steepest > 2.0 * sky.mean) sky.slope *= 2.0 * sky.mean / steepest;
+        }
+        irradiance += sky.mean * dome.projectedSolidAngle(cell) + sky.slope.y * dome.projectedHeight(cell);
     }
-    for (double& value : radiance) value = irradiance > 0.0 ? value * dhi / irradiance : dhi / std::numbers::pi;
+    for (CellSky& sky : radiance) {
+        if (irradiance <= 0.0) sky = {1.0, {}};
+        const double scale = dhi / (irradiance > 0.0 ? irradiance : std::numbers::pi);
+        sky.mean *= scale;
+        sky.slope *= scale;
+    }
     return radiance;
 }
 

@@ -51,8 +51,16 @@ SkyShape cieSky(u32 type, const glm::dvec3& toSun);
 /// published fit turns negative (as gendaylit does); a sun below the horizon counts as at it.
 SkyShape perezSky(double dni, double dhi, double extraterrestrial, const glm::dvec3& toSun);
 
-/// Radiance of each cell of a dome, W/m2/sr: means of the shape over the cells, scaled so that an unobstructed
-/// horizontal plane gets `dhi` from these cells exactly. A shape that is dark everywhere gives the uniform sky.
-std::vector<double> domeRadiance(const SkyDome& dome, const SkyShape& shape, double dhi);
+/// Radiance of a cell of a dome, W/m2/sr: mean + slope . SkyDome::placeIn, nowhere negative.
+struct CellSky
+{
+    double mean = 0.0;
+    glm::dvec2 slope{0.0};
+};
+
+/// Radiance of each cell of a dome: the shape's mean over the cell and, where `linear`, its slopes by least squares;
+/// scaled so that an unobstructed horizontal plane gets `dhi` from these cells exactly. A shape that is dark everywhere
+/// gives the uniform sky.
+std::vector<CellSky> domeRadiance(const SkyDome& dome, const SkyShape& shape, double dhi, bool linear = true);
 
 } // namespace helio

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/stages/sky_energy.h"
 
-#include <numbers>
-
 #include "engine/graph/pass_context.h"
 #include "shaders/embedded.h"
 #include "shaders/shared/solve.h"
 
 namespace helio {
-
-std::vector<glm::vec4> uniformSky(std::span<const gpu::SkyPatchRecord> skyPatches, double dhi)
-{
-    std::vector<glm::vec4> radiance;
-    for (const gpu::SkyPatchRecord& sky : skyPatches)
-        radiance.push_back(glm::vec4(sky.direction.z > 0.0f ? float(dhi / std::numbers::pi) : 0.0f));
-    return radiance;
-}
 
 Ref<Buffer> addSkyEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiance, Ref<Buffer> to)
 {
@@ -23,14 +13,16 @@ Ref<Buffer> addSkyEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> 
         const auto rows = pass.read(pass.import(tile.skyRows), Use::ComputeRead);
         const auto columns = pass.read(pass.import(tile.skyColumns), Use::ComputeRead);
         const auto factors = pass.read(pass.import(tile.skyFactors), Use::ComputeRead);
+        const auto offsets = pass.read(pass.import(tile.skyOffsets), Use::ComputeRead);
         const auto from = pass.read(radiance, Use::ComputeRead);
         const auto out = pass.write(to, Use::ComputeWrite);
-        pass.record([=, patchCount = tile.patchCount](PassContext& ctx) {
+        const gpu::SkyParams params{tile.patchCount, tile.hasSkyOffsets ? 1u : 0u};
+        pass.record([=](PassContext& ctx) {
             ctx.dispatch(shaders::kSkyEnergyComp,
                          {storage(gpu::kSkyRows, rows), storage(gpu::kSkyColumns, columns),
                           storage(gpu::kSkyFactors, factors), storage(gpu::kSkyRadiance, from),
-                          storage(gpu::kSkyIrradiance, out)},
-                         gpu::SkyParams{patchCount}, groupsFor(patchCount, gpu::kSolveGroup));
+                          storage(gpu::kSkyIrradiance, out), storage(gpu::kSkyOffsets, offsets)},
+                         params, groupsFor(params.patchCount, gpu::kSolveGroup));
         });
         return out;
     });

@@ -9,10 +9,8 @@
 
 namespace helio {
 
-/// Radiance of each sky patch of a uniform sky, W/m2/sr: DHI / pi above the horizon, black below. Same in all channels.
-std::vector<glm::vec4> uniformSky(std::span<const gpu::SkyPatchRecord> skyPatches, double dhi);
-
-/// E_sky = pi sum factor L over the sky links of each patch. radiance: vec4 a sky patch; to: vec4 a patch, W/m2.
+/// E_sky = pi sum factor (L + slope . offset) over the sky links of each patch. radiance: SkyRadianceRecord a sky
+/// patch; to: vec4 a patch, W/m2.
 [[nodiscard]] Ref<Buffer> addSkyEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer> radiance, Ref<Buffer> to);
 
 } // namespace helio

@@ -18,6 +18,7 @@ SunEnergyRefs addSunEnergy(FrameGraph& graph, const TileTables& tile, Ref<Buffer
     params.patchCount = tile.patchCount;
     params.minSamples = kMinSunSamples;
     params.minCosine = kMinSunCosine;
+    params.discRadius = input.discRadius;
     const Groups groups = groupsFor(tile.patchCount, gpu::kSunGroup);
 
     density = graph.addPass("sun density", [&](PassBuilder& pass) {

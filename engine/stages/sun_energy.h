@@ -17,6 +17,7 @@ struct SunEnergyInput
     glm::vec3 towardsSun{0.0f, 0.0f, 1.0f}; ///< unit
     glm::vec4 dni{0.0f};                    ///< W/m2 a channel
     double texelArea = 1.0;                 ///< m2
+    float discRadius = 0.0f;                ///< rad, of the sun's disc on patches that it grazes; 0 = a point
 };
 
 struct SunEnergyRefs

@@ -93,6 +93,8 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile)
     t.skyRows = makeBuffer(context, "sky rows", tile.skyRows);
     t.skyColumns = makeBuffer(context, "sky columns", tile.skyColumns);
     t.skyFactors = makeBuffer(context, "sky factors", tile.skyFactors);
+    t.hasSkyOffsets = !tile.skyOffsets.empty();
+    t.skyOffsets = makeBuffer(context, "sky offsets", tile.skyOffsets);
 
     t.vertices = makeBuffer(context, "vertices", tile.vertices);
     t.indices = makeBuffer(context, "indices", tile.indices);

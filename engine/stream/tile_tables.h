@@ -41,7 +41,8 @@ struct TileTables
     bool texelLinks = false; ///< links and radiosity fit texel buffers: the faster gather
 
     std::vector<gpu::SkyPatchRecord> skyPatches;
-    Buffer skyRows, skyColumns, skyFactors;
+    bool hasSkyOffsets = false; ///< radiance is linear across sky patches
+    Buffer skyRows, skyColumns, skyFactors, skyOffsets;
 
     Buffer vertices, indices, instances;
     u32 staticVertexCount = 0; ///< vertices of the static mesh (instance 0), which come first

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHazeLength = 12000.0;      // m over which 63 % of a view turns to haze
 constexpr double kGroundHazeLength = 3500.0; // the same for the plain beyond the scene: it shall not end in a line
-constexpr double kGroundAlbedo = 0.16;
+constexpr double kGroundAlbedo = 0.16;       // of that plain where the scene has none
 constexpr double kMiddleGrey = 0.50; // of the exposed mean; the curve brings it to a display value above one half
 constexpr double kSunWeight = 0.04;  // of a white surface in the sun, so that it does not burn out in a dark scene
 
@@ -43,7 +43,7 @@ gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunV
 }
 
 gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun,
-                           bool display, double groundZ)
+                           bool display, const FarGround& ground)
 {
     gpu::ViewRecord v{};
     v.worldFromClip = glm::mat4(glm::inverse(clipFromWorld(camera, aspect)));
@@ -62,6 +62,8 @@ gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState
     v.skyTint = glm::vec4(1.0f);
     v.zenith = glm::vec4(glm::vec3(float(sky)), 1.0f);
     v.horizon = glm::vec4(glm::vec3(float(sky)), 0.0f);
+    const double height = std::max(light.towardsSun.z, 0.0);
+    v.ground = glm::vec4(ground.rho / std::numbers::pi * (dni * height + light.dhi), 0.0);
     if (!display) return v;
 
     // Warm and weak near the horizon, nearly white above 30 degrees; the sky keeps what the sun lost.
@@ -73,9 +75,9 @@ gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState
     const glm::dvec3 horizon = sky * glm::mix(glm::dvec3(1.75, 1.42, 1.15), glm::dvec3(1.40, 1.72, 2.05), high);
     v.zenith = glm::vec4(zenith, 3.0);
     v.horizon = glm::vec4(horizon, 1.0 / kGroundHazeLength);
-    const glm::dvec3 onGround =
-        glm::dvec3(v.sunLight) * std::max(light.towardsSun.z, 0.0) + light.dhi * glm::dvec3(v.skyTint);
-    v.ground = glm::vec4(kGroundAlbedo / std::numbers::pi * onGround, std::max(camera.eye.z - groundZ, 0.1));
+    const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * glm::dvec3(v.skyTint);
+    const glm::dvec3 albedo = ground.rho != glm::dvec3(0.0) ? ground.rho : glm::dvec3(kGroundAlbedo);
+    v.ground = glm::vec4(albedo / std::numbers::pi * onGround, std::max(camera.eye.z - ground.z, 0.1));
     v.glow = glm::vec4(lit * sky * glm::mix(glm::dvec3(2.4, 1.3, 0.6), glm::dvec3(1.2, 1.1, 0.9), high), 0.0);
     return v;
 }

@@ -12,9 +12,15 @@ namespace helio {
 /// What the forward pass needs to know about one picture, in its two parts. display: tinted sun and sky, haze, gradient
 /// sky (display only); else plain radiance before a uniform sky.
 gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunView& sun, bool display);
-/// groundZ: m, where the plain beyond the scene lies.
+
+/// The ground beyond the scene.
+struct FarGround
+{
+    double z = 0.0;      ///< m, where it lies
+    glm::dvec3 rho{0.0}; ///< its reflectance; 0: the light solve knows none, and only pictures for display show one
+};
 gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun,
-                           bool display, double groundZ);
+                           bool display, const FarGround& ground);
 
 /// Display scale of a radiance, per W/m2/sr: brings the scene's mean radiance to a fixed grey. meanRadiosity: W/m2,
 /// area-weighted over the patches. Depends on the light alone, not on the camera, so pictures of one light compare.

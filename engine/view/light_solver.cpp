@@ -166,7 +166,7 @@ void LightSolver::solveSun(const LightState& light)
                               {!options_.plainHistogram});
     }
     const SunEnergyInput input{glm::vec3(light.towardsSun), glm::vec4(raster ? float(light.dni) : 0.0f),
-                               sunView_.texelArea()};
+                               sunView_.texelArea(), float(light.sunRadius)};
     const SunEnergyRefs energy =
         addSunEnergy(graph, tile_, counts, graph.import(density_), {graph.import(sun_), graph.import(tally_)}, input);
     addReadback(graph, energy.tally, tallyHost_);
@@ -185,11 +185,7 @@ void LightSolver::solveSun(const LightState& light)
 
 void LightSolver::solveSky(const LightState& light)
 {
-    std::vector<glm::vec4> sky(light.skyRadiance.size());
-    std::transform(light.skyRadiance.begin(), light.skyRadiance.end(), sky.begin(),
-                   [](float value) { return glm::vec4(value); });
-    const Buffer radiance =
-        makeBuffer(context_, "sky radiance", sky.empty() ? uniformSky(tile_.skyPatches, light.dhi) : sky);
+    const Buffer radiance = makeBuffer(context_, "sky radiance", outsideRadiance(tile_.skyPatches, light));
     FrameGraph graph("sky");
     (void)addSkyEnergy(graph, tile_, graph.import(radiance), graph.import(sky_));
     run(graph, kSkyStage);
@@ -267,8 +263,12 @@ const SolveReport& LightSolver::solve(const LightState& light)
         if (!solved_ || solved_->given != light.given) takeGiven(*light.given);
     } else {
         const bool fresh = !solved_ || solved_->given;
-        if (fresh || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni) solveSun(light);
-        if (fresh || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance) solveSky(light);
+        const bool sunMoved = fresh || solved_->towardsSun != light.towardsSun || solved_->dni != light.dni ||
+                              solved_->sunRadius != light.sunRadius;
+        if (sunMoved) solveSun(light);
+        const bool sunOutside = sunMoved && skyCellCount(tile_.skyPatches) < tile_.skyPatches.size();
+        if (fresh || solved_->dhi != light.dhi || solved_->skyRadiance != light.skyRadiance || sunOutside)
+            solveSky(light);
     }
     // Without light the solution is 0, which no residual relative to itself leads to.
     const bool dark = !light.given && !light.sunUp() && light.dhi <= 0.0 && !(light.emission && tile_.emits);

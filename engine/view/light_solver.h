@@ -17,7 +17,8 @@ namespace helio {
 std::string stageOf(const std::string& pass, const std::string& other);
 
 /// Stages 1 to 3 with the buffers that hold their results. Runs only what a change of the light asks for: the sun
-/// raster, the histogram and E_sun when the sun moved, E_sky when the sky changed, the sweeps when either did.
+/// raster, the histogram and E_sun when the sun moved; E_sky when the sky changed, or the sun where it lights the
+/// ground beyond the scene; the sweeps when either did.
 class LightSolver
 {
 public:

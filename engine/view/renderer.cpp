@@ -58,8 +58,9 @@ struct Renderer::Impl
           nothing(makeBuffer(c, "no corners", std::vector<glm::vec4>(2)))
     {
         note = contractionNote(tile.contraction, solver.spectrum());
-        groundZ = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
-        for (const DrawChunk& chunk : tile.chunks) groundZ = std::min(groundZ, double(chunk.box.lo.z));
+        ground.z = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
+        for (const DrawChunk& chunk : tile.chunks) ground.z = std::min(ground.z, double(chunk.box.lo.z));
+        ground.rho = glm::dvec3(farGroundOf(t));
     }
 
     /// The tables of interpolated light are made when a picture first asks for them.
@@ -89,7 +90,7 @@ struct Renderer::Impl
     std::optional<Pack> pack; // keeps the mapped tile alive
     TileView view;
     double northDeg;
-    double groundZ = 0.0; // m, the lowest point of what is drawn
+    FarGround ground; // at the lowest point of what is drawn
     TileTables tile;
     LightSolver solver;
     std::string note;
@@ -131,14 +132,14 @@ void Renderer::setSun(double azimuthDeg, double elevationDeg, double dni)
 {
     HELIO_CHECK(std::isfinite(azimuthDeg) && std::isfinite(elevationDeg) && std::isfinite(dni) && dni >= 0.0,
                 "azimuth ", azimuthDeg, ", elevation ", elevationDeg, ", DNI ", dni);
-    impl_->light.towardsSun = sunDirection(azimuthDeg, elevationDeg, impl_->northDeg);
-    impl_->light.dni = dni;
+    setSunDisc(impl_->light, sunDirection(azimuthDeg, elevationDeg, impl_->northDeg), dni);
 }
 
-void Renderer::setSky(double dhi, std::vector<float> radiance)
+void Renderer::setSky(double dhi, std::vector<CellRadiance> radiance)
 {
     HELIO_CHECK(std::isfinite(dhi) && dhi >= 0.0, "DHI ", dhi);
-    HELIO_CHECK(radiance.empty() || radiance.size() == impl_->tile.skyPatches.size(), radiance.size(), " radiances");
+    HELIO_CHECK(radiance.empty() || radiance.size() == skyCellCount(impl_->tile.skyPatches), radiance.size(),
+                " radiances");
     impl_->light.dhi = dhi;
     impl_->light.skyRadiance = std::move(radiance);
 }
@@ -201,7 +202,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const gpu::ForwardParams params =
         forwardParams(camera, double(width) / height, r.solver.sunView(), options.display);
     const gpu::ViewRecord record =
-        viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display, r.groundZ);
+        viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display, r.ground);
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
     r.drawn = DrawList(r.context, visibleDraws(r.tile.chunks, params.clipFromWorld));

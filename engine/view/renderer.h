@@ -93,10 +93,12 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Azimuth clockwise from true north, elevation above the horizon, degrees; dni W/m2.
+    /// Of the centre of the disc, as it appears: azimuth clockwise from true north, elevation above the horizon,
+    /// degrees; dni W/m2, of the whole disc.
     void setSun(double azimuthDeg, double elevationDeg, double dni);
-    /// dhi W/m2. `radiance`: W/m2/sr of each sky patch of the pack, which must add up to dhi; none = uniform.
-    void setSky(double dhi, std::vector<float> radiance = {});
+    /// dhi W/m2. `radiance`: of each cell of the pack's sky (skyCellCount), which must add up to dhi; none = uniform.
+    /// The ground beyond the scene, where the pack has one, is lit by them and by the sun.
+    void setSky(double dhi, std::vector<CellRadiance> radiance = {});
     void setEmission(bool on);
     /// Light of every patch in place of what the sun raster and the sky links give; null = theirs again. Pictures have
     /// no sun then: it is for tables.

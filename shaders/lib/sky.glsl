@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture's background: a gradient from the horizon to the zenith with a glow around the sun, and a plain below. Display
-// only: the light solve knows the uniform sky, and nothing below the horizon. Needs `view`, a ViewRecord.
+// only: a linear picture has the uniform sky, and below the horizon the ground beyond the scene if the light solve knows one.
+// Needs `view`, a ViewRecord.
 vec3 skyRadiance(vec3 direction)
 {
     const float up = clamp(direction.z, 0.0, 1.0); // a normalised z may be 1 + an ulp

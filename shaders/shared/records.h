@@ -83,12 +83,14 @@ struct DrawRecord {
 };
 HELIO_SIZE(DrawRecord, 20);
 
-// A sender of sky light. The uniform sky is one patch: the upper hemisphere.
+// A sender of light from outside the scene: a part of the sky (the uniform sky is one, the upper hemisphere), or the
+// ground beyond the scene: the lower hemisphere, after all others.
 struct SkyPatchRecord {
-    vec3 direction;  // unit, its centre
+    vec3 direction;  // unit, its centre; (0, 0, -1) for the ground beyond
     float solidAngle; // sr
+    vec4 rho;         // reflectance of the ground beyond; 0 for the sky
 };
-HELIO_SIZE(SkyPatchRecord, 16);
+HELIO_SIZE(SkyPatchRecord, 32);
 
 HELIO_SHARED_END
 #endif

@@ -41,10 +41,19 @@ HELIO_CONSTANT uint kSkyColumns = 1u;
 HELIO_CONSTANT uint kSkyFactors = 2u;
 HELIO_CONSTANT uint kSkyRadiance = 3u;
 HELIO_CONSTANT uint kSkyIrradiance = 4u;
+HELIO_CONSTANT uint kSkyOffsets = 5u;
 struct SkyParams {         // push constant
     uint patchCount;
+    uint hasOffsets;       // 0: sky patches have one radiance each
 };
-HELIO_SIZE(SkyParams, 4);
+HELIO_SIZE(SkyParams, 8);
+
+// Radiance of a sky patch, W/m2/sr: its mean and its change across the patch, the same in all channels.
+struct SkyRadianceRecord {
+    vec4 mean;
+    vec2 slope;
+};
+HELIO_SIZE(SkyRadianceRecord, 24);
 
 // first_light: B0 = emission + rho (E_sun + E_sky), B = B0 + rho E_indirect
 HELIO_CONSTANT uint kFirstPatches = 0u;

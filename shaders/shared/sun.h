@@ -49,7 +49,7 @@ struct SunEnergyParams {   // push constant
     uint patchCount;
     float minSamples;      // texels that a node must be expected to cover to be judged by its own count
     float minCosine;       // a patch that faces the sun less takes an ancestor's ratio
-    uint pad0;
+    float discRadius;      // rad, of the sun's disc; 0 = a point
 };
 HELIO_SIZE(SunEnergyParams, 48);
 

@@ -85,6 +85,41 @@ TEST_F(RenderCli, HelpSaysUnitsAndExitsWithZero)
         EXPECT_NE(result.out.find(word), std::string::npos) << word;
 }
 
+TEST_F(RenderCli, WallsAtTheBorderSeeTheGroundBeyond)
+{
+    // One block on its own: half of what its walls see below the horizon is not modelled, but is not black.
+    put("city.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[20,0],[20,20],[0,20],[0,0]]]})");
+    put("block.cga",
+        "Lot --> extrude(30) comp(f) { side : Wall | top : Roof }\nWall --> split(y) { ~5 : Storey }*\n"
+        "Storey --> split(x) { ~5 : Bay }*\nBay --> color(0.5, 0.5, 0.5)\nRoof --> color(0.5, 0.5, 0.5)\n");
+    const RunResult baked =
+        test::runProgram(HELIO_BAKE, "city.geojson --rules block.cga --sky-patches 1 -o c", temp_.path());
+    ASSERT_EQ(baked.exitCode, 0) << baked.err;
+    const std::string light = " --sun 150,40 --dni 800 --dhi 120 ";
+    ASSERT_EQ(render("c --sun-texel 0.1 --table t.csv" + light).exitCode, 0);
+    ASSERT_EQ(test::runProgram(HELIO_BAKE, "reference c --spp 1024 -o r.csv" + light, temp_.path()).exitCode, 0);
+    const RunResult compared = test::runProgram(HELIO_BAKE, "compare t.csv r.csv --json", temp_.path());
+    ASSERT_EQ(compared.exitCode, 0) << compared.err;
+    bool found = false;
+    for (const auto& row : nlohmann::json::parse(compared.out)) {
+        if (row["quantity"] != "E_sky" || row["channels"] != "solar") continue;
+        found = true;
+        EXPECT_LT(row["rms"].get<double>(), 0.01);
+        EXPECT_LT(std::abs(row["bias"].get<double>()), 3e-3);
+    }
+    EXPECT_TRUE(found) << compared.out;
+    // Half of the sky, and what lies beyond 30 m of street in the sun and under the sky: more the higher the wall.
+    double highest = 0.0;
+    for (const std::string& line : split(bytesOf("t.csv"), '\n')) {
+        const std::vector<std::string> cells = split(line, ',');
+        if (cells.size() > 10 && cells[1] == "0" && std::stod(cells[2]) < 30.0)
+            highest = std::max(highest, std::stod(cells[10]));
+    }
+    const double onGround = 120.0 + 800.0 * std::sin(40.0 * 3.14159265 / 180.0);
+    EXPECT_GT(highest, 60.0 + 0.12 * onGround * 0.2);
+    EXPECT_LT(highest, 60.0 + 0.12 * onGround * 0.5);
+}
+
 TEST_F(RenderCli, SunByDateAndSkyByModel)
 {
     const std::string scene = HELIO_SCENES "/twobox";

@@ -295,6 +295,37 @@ TEST_F(RendererTest, BackgroundIsTheUniformSkyAndBlackBelow)
     EXPECT_EQ(renderer->render(camera, 20, 20, view).values[0].a, -1.0f);
 }
 
+TEST_F(RendererTest, TheGroundBeyondFollowsSunAndSky)
+{
+    // A wall that faces north sees half of the sky and half of the plain.
+    TileBuilder b;
+    const u32 wall = b.quad({{{0, 0, 0}, {0, 0, 4}, {4, 0, 4}, {4, 0, 0}}}, glm::vec4(0.5f));
+    const glm::vec4 rho(0.1f, 0.2f, 0.3f, 0.4f);
+    b.sky(wall, 0.5f);
+    b.farGround(wall, 0.5f, rho);
+    auto renderer = make(b.view());
+    renderer->setSky(120.0);
+    for (const double elevation : {30.0, 50.0, -20.0}) {
+        renderer->setSun(180.0, elevation, 800.0);
+        renderer->solve();
+        const glm::vec4 sky = renderer->readTables().sky[wall];
+        const double onGround = 120.0 + 800.0 * std::max(0.0, std::sin(elevation * kPi / 180.0));
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(sky[c], 60.0 + 0.5 * rho[c] * onGround, 1e-3) << elevation;
+    }
+    renderer->setSky(10.0, {{3.0f, {}}});
+    renderer->solve();
+    EXPECT_NEAR(renderer->readTables().sky[wall].x, 0.5 * 3.0 * kPi + 0.5 * 0.1 * 10.0, 1e-4)
+        << "a sky of its own radiance";
+    renderer->setSun(180.0, 30.0, 800.0);
+    ViewOptions view;
+    view.display = false;
+    Camera camera;
+    camera.eye = {2, 30, 2};
+    camera.target = {2, 60, 2};
+    const Picture picture = renderer->render(camera, 20, 20, view);
+    EXPECT_NEAR(picture.values[15 * 20 + 10].g, 0.2 / kPi * 410.0, 1e-3) << "the picture shows it below the horizon";
+}
+
 TEST_F(RendererTest, SameBytesTwice)
 {
     Yard yard;

@@ -6,6 +6,7 @@ add_executable(gpu_stages_test
     gpu/gather_test.cpp
     gpu/histogram_test.cpp
     gpu/renderer_test.cpp
+    gpu/sky_energy_test.cpp
     gpu/sun_energy_test.cpp)
 target_link_libraries(gpu_stages_test PRIVATE helio_gpu_fixture stage_test_support engine_view GTest::gtest_main)
 gtest_discover_tests(gpu_stages_test PROPERTIES LABELS gpu)

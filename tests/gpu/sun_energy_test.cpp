@@ -167,6 +167,55 @@ TEST_F(SunEnergyTest, SmallPatchesTakeTheRatioAround)
     for (const u32 strip : strips) EXPECT_NEAR(light.sun[strip].w, 500.0, 40.0);
 }
 
+TEST_F(SunEnergyTest, AWallOnEdgeToTheSunGetsHalfOfItsDisc)
+{
+    // Ground in full sun and walls of 3 m by it that face the sun by -0.2, 0 and 0.1 degrees; the disc's radius is
+    // 0.267.
+    TileBuilder b;
+    const u32 ground = b.quad({{{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}}}, kGrey);
+    std::vector<u32> all{ground};
+    const double turns[] = {-0.2, 0.0, 0.1};
+    for (int i = 0; i < 3; ++i) {
+        // The sun stands in the south. Facing east, turned towards it.
+        const double turn = glm::radians(turns[i] / std::cos(glm::radians(30.0)));
+        const glm::vec3 foot(30.0f + 5.0f * float(i), 0, 0), along(3.0 * std::sin(turn), 3.0 * std::cos(turn), 0);
+        const glm::vec3 up(0, 0, 3);
+        all.push_back(b.quad({foot, foot + along, foot + along + up, foot + up}, kGrey));
+    }
+    b.group(all);
+    auto renderer = makeRenderer(b.view(), 0.05);
+    renderer->setSun(180.0, 30.0, 1000.0);
+    renderer->solve();
+    const std::vector<glm::vec4> sun = renderer->readTables().sun;
+    const double radius = glm::radians(0.26667), full = sun[ground].w / 500.0;
+    EXPECT_NEAR(full, 1.0, 0.01);
+    for (int i = 0; i < 3; ++i) {
+        // Mean over the disc of the height above the wall's plane.
+        double height = 0.0, count = 0.0;
+        for (double x = -0.995; x < 1.0; x += 0.01)
+            for (double y = -0.995; y < 1.0; y += 0.01) {
+                if (x * x + y * y > 1.0) continue;
+                count += 1.0;
+                height += std::max(0.0, y * radius + glm::radians(turns[i]));
+            }
+        EXPECT_NEAR(sun[all[size_t(i) + 1]].w, 1000.0 * height / count, 0.03 * 1000.0 * height / count) << turns[i];
+    }
+    EXPECT_NEAR(sun[all[2]].w, 1000.0 * 2.0 / 3.0 / 3.14159265 * radius, 0.02) << "on edge: 0.99 W/m2";
+}
+
+TEST_F(SunEnergyTest, TheHorizonCutsTheDisc)
+{
+    TileBuilder b;
+    const u32 box = b.box({-1, -1, 0}, {1, 1, 2}, kGrey);
+    auto renderer = makeRenderer(b.view());
+    renderer->setSun(90.0, 0.0, 1000.0);
+    renderer->solve();
+    EXPECT_NEAR(renderer->readTables().sun[box + 1].w, 500.0, 10.0) << "half of it stands above";
+    renderer->setSun(90.0, -0.27, 1000.0);
+    renderer->solve();
+    EXPECT_EQ(renderer->readTables().sun[box + 1].w, 0.0f);
+}
+
 TEST_F(SunEnergyTest, NoSunBelowTheHorizon)
 {
     TileBuilder b;

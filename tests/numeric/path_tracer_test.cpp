@@ -96,7 +96,7 @@ void judgeScene(const std::string& name, double azimuth, double elevation, bool 
         if (!measured(scene, face)) continue;
         const PatchLight& light = result.patches[i];
         ofSun.add(light.sun, sun[face], std::hypot(light.sunError, sunError[face]));
-        ofSky.add(light.sky, 120.0 * svf[face], std::hypot(light.skyError, 120.0 * svfError[face]));
+        ofSky.add(light.sky.x, 120.0 * svf[face], std::hypot(light.skyError.x, 120.0 * svfError[face]));
         ofIndirect.add(light.indirect.y, indirect[face], std::hypot(light.indirectError.y, error[face]));
     }
     std::printf("%s, in standard errors:\n", name.c_str());
@@ -133,7 +133,7 @@ TEST(PathTracer, BacksAreBlackAndBlock)
     const PathReference r = trace(makeTree(faces), {.samples = 256});
     EXPECT_EQ(r.patches[0].indirect, kBlack);
     EXPECT_EQ(r.patches[0].sun, 0.0);
-    EXPECT_LT(r.patches[0].sky, 120.0);
+    EXPECT_LT(r.patches[0].sky.x, 120.0);
 }
 
 TEST(PathTracer, FurnaceHasNoError)
@@ -146,7 +146,7 @@ TEST(PathTracer, FurnaceHasNoError)
     Deviation deviation;
     for (const PatchLight& light : r.patches) {
         EXPECT_EQ(light.sun, 0.0);
-        EXPECT_EQ(light.sky, 0.0);
+        EXPECT_EQ(light.sky, kBlack);
         for (int c = 0; c < 4; ++c) {
             EXPECT_LT(light.indirectError[c], 0.02 / (1.0 - rho[c]));
             deviation.add(light.indirect[c], 1.0 / (1.0 - rho[c]), light.indirectError[c]);
@@ -162,11 +162,71 @@ TEST(PathTracer, OpenGroundUnderSunAndSky)
     const glm::dvec3 toSun = sunDirection(2.0, 30.0 * kDegree);
     const PatchLight light = trace(tree, {.toSun = toSun, .samples = 64}).patches[0];
     EXPECT_NEAR(light.sun, 400.0, 1e-9);
-    EXPECT_NEAR(light.sky, 120.0, 1e-9);
+    EXPECT_NEAR(light.sky.x, 120.0, 1e-9);
     EXPECT_EQ(light.indirect, kBlack);
     EXPECT_EQ(light.totalError, kBlack);
     const PatchLight night = trace(tree, {.toSun = -toSun, .samples = 64}).patches[0];
     EXPECT_EQ(night.sun, 0.0);
+}
+
+TEST(PathTracer, TheGroundBeyondIsLitBySunAndSky)
+{
+    // A wall at the edge of a flat city sees nothing of it; its back side faces the city.
+    const glm::dvec4 rho(0.1, 0.2, 0.3, 0.4), ground(0.12, 0.2, 0.3, 0.5);
+    std::vector<Face> faces = grid({0, 0, 0}, kY, kZ, 1, 1, {{}, 0, rho});
+    append(faces, grid({-2000, -1000, 0}, 2000.0 * kX, 2000.0 * kY, 1, 1, {{}, 1, rho}));
+    const glm::dvec3 toSun = sunDirection(-1.0, 30.0 * kDegree);
+    const NodeTree tree = makeTree(faces);
+    const PathReference r = trace(tree, {.toSun = toSun, .farGround = ground, .samples = 4096});
+    for (int c = 0; c < 4; ++c)
+        EXPECT_NEAR(r.patches[0].sky[c], 0.5 * 120.0 + 0.5 * ground[c] * (800.0 * 0.5 + 120.0), 1e-2);
+    EXPECT_EQ(r.patches[0].indirect, kBlack);
+    EXPECT_NEAR(r.patches[1].sky.x, 120.0, 0.1);
+    // After a bounce: between two walls, light from below as strong as that from above doubles everything.
+    faces = grid({0, -0.5, -0.5}, kY, kZ, 1, 1, {{}, 0, rho});
+    append(faces, grid({1, -0.5, -0.5}, kZ, kY, 1, 1, {{}, 1, rho}));
+    const NodeTree walls = makeTree(faces);
+    const PatchLight both = trace(walls, {.dni = 0.0, .farGround = glm::dvec4(1.0), .samples = 65536}).patches[0];
+    const PatchLight above = trace(walls, {.dni = 0.0, .samples = 65536}).patches[0];
+    EXPECT_NEAR(both.indirect.w, 2.0 * above.indirect.w,
+                5.0 * std::hypot(both.indirectError.w, 2.0 * above.indirectError.w));
+    EXPECT_LT(above.indirectError.w, 0.02 * above.indirect.w);
+}
+
+TEST(PathTracer, TheSunIsADisc)
+{
+    const double radius = 0.26667 * kDegree, pi = std::numbers::pi;
+    // On edge: 2 / (3 pi) radius. A quarter of a degree from a wall's plane nothing is left of the point either way.
+    const NodeTree wall = makeTree(grid({0, 0, 0}, kY, kZ, 1, 1, {{}, 0}));
+    const auto sunOn = [&](const NodeTree& tree, double azimuth, double elevation, double disc) {
+        return trace(tree, {.toSun = sunDirection(azimuth * kDegree, elevation * kDegree),
+                            .dni = 1000.0,
+                            .sunRadius = disc,
+                            .dhi = 0.0,
+                            .samples = 65536})
+            .patches[0];
+    };
+    const PatchLight edge = sunOn(wall, 180.0, 0.5, radius);
+    EXPECT_NEAR(edge.sun, 1000.0 * 2.0 / (3.0 * pi) * radius, 5.0 * edge.sunError);
+    EXPECT_LT(edge.sunError, 0.01 * edge.sun);
+    EXPECT_EQ(sunOn(wall, 180.0, 0.5, 0.0).sun < 1e-9, true);
+    EXPECT_EQ(sunOn(wall, 180.3, 0.5, radius).sun, 0.0);
+    // The horizon cuts it: half of the disc, on a wall that faces it and on the ground.
+    const PatchLight facing = sunOn(wall, 90.0, 0.0, radius);
+    EXPECT_NEAR(facing.sun, 500.0, 5.0 * facing.sunError);
+    // A shadow's edge across a patch that holds all of its penumbra moves no light out of it; along the patch's border
+    // it does: a border of 0.21 of the penumbra's half width is exchanged.
+    std::vector<Face> faces = grid({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 1, 1, {{}, 0});
+    append(faces, grid({-20, -20, 10}, {20, 0, 0}, {0, 40, 0}, 1, 1, {{}, 1}));
+    const NodeTree halved = makeTree(faces);
+    const PatchLight point = sunOn(halved, 0.0, 90.0, 0.0), disc = sunOn(halved, 0.0, 90.0, radius);
+    EXPECT_NEAR(point.sun, 500.0, 1.0);
+    EXPECT_NEAR(disc.sun, point.sun, 5.0 * std::hypot(point.sunError, disc.sunError));
+    faces[0].ring = grid({0, -1, 0}, {1, 0, 0}, {0, 2, 0}, 1, 1, {{}, 0})[0].ring;
+    const NodeTree beside = makeTree(faces);
+    const double width = 10.0 * radius; // half of the penumbra, m
+    const PatchLight border = sunOn(beside, 0.0, 90.0, radius);
+    EXPECT_NEAR(border.sun, 1000.0 * (1.0 - 2.0 / (3.0 * pi) * width), 5.0 * border.sunError + 0.05);
 }
 
 TEST(PathTracer, ErrorFallsWithTheRootOfThePaths)

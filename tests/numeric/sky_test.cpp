@@ -70,6 +70,36 @@ TEST(SkyDome, CellsAreCompact)
     }
 }
 
+TEST(SkyDome, PlacesInACell)
+{
+    for (const u32 count : {2u, 5u, 64u, 577u}) {
+        const SkyDome dome(count);
+        for (u32 cell = 1; cell < count; ++cell)
+            for (const double u : {0.01, 0.3, 0.99})
+                for (const double v : {0.01, 0.6, 0.99}) {
+                    const glm::dvec2 place = dome.placeIn(cell, dome.pointOf(cell, u, v));
+                    EXPECT_NEAR(place.x, u - 0.5, 1e-9) << count << " cells, cell " << cell;
+                    EXPECT_NEAR(place.y, v - 0.5, 1e-9) << count << " cells, cell " << cell;
+                }
+        // The cap: x and y over its width. Integrals over every cell, by midpoints.
+        const glm::dvec2 rim = dome.placeIn(0, dome.pointOf(0, 0.125, 1.0));
+        EXPECT_NEAR(rim.x, 0.5 * std::sqrt(0.5), 1e-9);
+        EXPECT_NEAR(rim.y, 0.5 * std::sqrt(0.5), 1e-9);
+        for (const u32 cell : {0u, count / 2, count - 1}) {
+            glm::dvec2 sum(0.0);
+            constexpr int kSteps = 200;
+            for (int i = 0; i < kSteps; ++i)
+                for (int k = 0; k < kSteps; ++k) {
+                    const glm::dvec3 d = dome.pointOf(cell, (i + 0.5) / kSteps, (k + 0.5) / kSteps);
+                    sum += d.z * dome.placeIn(cell, d);
+                }
+            sum *= dome.solidAngle() / (kSteps * kSteps);
+            EXPECT_NEAR(sum.x, 0.0, 1e-9);
+            EXPECT_NEAR(sum.y, dome.projectedHeight(cell), 1e-5 * dome.solidAngle());
+        }
+    }
+}
+
 TEST(SkyModel, CieCheckValues)
 {
     // colour-science, Kittler's general sky: zenith angle 45, sun at 30, azimuths 180 degrees apart.
@@ -139,12 +169,16 @@ TEST(SkyModel, EveryDomeGivesTheIrradianceAskedFor)
         const SkyDome dome(count);
         const auto check = [&](const SkyShape& shape, double dhi) {
             double sum = 0.0;
-            const std::vector<double> radiance = domeRadiance(dome, shape, dhi);
-            for (u32 cell = 0; cell < count; ++cell) {
-                EXPECT_GE(radiance[cell], 0.0);
-                sum += radiance[cell] * dome.projectedSolidAngle(cell);
+            for (const bool linear : {false, true}) {
+                sum = 0.0;
+                const std::vector<CellSky> radiance = domeRadiance(dome, shape, dhi, linear);
+                for (u32 cell = 0; cell < count; ++cell) {
+                    const CellSky& sky = radiance[cell];
+                    EXPECT_GE(sky.mean, 0.5 * (std::abs(sky.slope.x) + std::abs(sky.slope.y)) - 1e-12);
+                    sum += sky.mean * dome.projectedSolidAngle(cell) + sky.slope.y * dome.projectedHeight(cell);
+                }
+                EXPECT_NEAR(sum, dhi, 1e-12 * dhi);
             }
-            EXPECT_NEAR(sum, dhi, 1e-12 * dhi);
         };
         for (const double zenith : {0.0, 50.0, 89.0, 95.0}) {
             const glm::dvec3 sun = direction(200, zenith);
@@ -152,8 +186,8 @@ TEST(SkyModel, EveryDomeGivesTheIrradianceAskedFor)
             for (const double dni : {0.0, 20.0, 60.0, 150.0, 400.0, 800.0, 1000.0})
                 for (const double dhi : {5.0, 60.0, 200.0, 500.0}) check(perezSky(dni, dhi, kSolarConstant, sun), dhi);
         }
-        for (const double value : domeRadiance(dome, SkyShape{}, 120.0)) EXPECT_NEAR(value, 120.0 / kPi, 1e-12);
-        for (const double value : domeRadiance(dome, SkyShape{}, 0.0)) EXPECT_EQ(value, 0.0);
+        for (const CellSky& sky : domeRadiance(dome, SkyShape{}, 120.0)) EXPECT_NEAR(sky.mean, 120.0 / kPi, 1e-12);
+        for (const CellSky& sky : domeRadiance(dome, SkyShape{}, 0.0)) EXPECT_EQ(sky.mean, 0.0);
     }
 }
 

@@ -95,6 +95,12 @@ void TileBuilder::sky(u32 patchId, float factor)
     sky_[patchId] = factor;
 }
 
+void TileBuilder::farGround(u32 patchId, float factor, glm::vec4 rho)
+{
+    below_[patchId] = factor;
+    farGroundRho_ = rho;
+}
+
 TileView TileBuilder::view()
 {
     nodes_.clear();
@@ -121,9 +127,14 @@ TileView TileBuilder::view()
             skyColumns_.push_back(0);
             skyFactors_.push_back(sky_[i]);
         }
+        if (below_.contains(i)) {
+            skyColumns_.push_back(1);
+            skyFactors_.push_back(below_[i]);
+        }
         skyRows_.push_back(u32(skyColumns_.size()));
     }
-    skyPatches_ = {{{0, 0, 1}, 6.2831853f}};
+    skyPatches_ = {{{0, 0, 1}, 6.2831853f, {}}};
+    if (!below_.empty()) skyPatches_.push_back({{0, 0, -1}, 6.2831853f, farGroundRho_});
 
     allVertices_ = vertices_;
     allVertices_.insert(allVertices_.end(), assetVertices_.begin(), assetVertices_.end());

@@ -29,6 +29,8 @@ public:
     u32 group(const std::vector<u32>& children, const std::vector<gpu::ChildSlopeRecord>& slopes = {});
     void link(u32 receiver, u32 sender, float factor, glm::vec2 moment = glm::vec2(0.0f));
     void sky(u32 patchId, float factor);
+    /// Ground beyond the scene, of which a patch sees this fraction; one reflectance for all.
+    void farGround(u32 patchId, float factor, glm::vec4 rho);
 
     /// The tile; stays valid until the builder changes or dies.
     TileView view();
@@ -52,7 +54,8 @@ private:
     };
     std::vector<gpu::ChildSlopeRecord> childSlopes_;
     std::map<u32, std::vector<Link>> links_;
-    std::map<u32, float> sky_;
+    std::map<u32, float> sky_, below_;
+    glm::vec4 farGroundRho_{0.0f};
 
     std::vector<gpu::NodeRecord> nodes_;
     std::vector<u32> linkRows_, linkColumns_, skyRows_, skyColumns_, allIndices_;

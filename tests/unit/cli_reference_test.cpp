@@ -2,6 +2,8 @@
 // reference, compare and export of the built heliopolis-bake, run as a user runs them.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "city/base/file.h"
 #include "city/pack/writer.h"
 #include "tests/unit/cli_runner.h"
@@ -111,6 +113,24 @@ TEST_F(ReferenceCli, ExportsForRadiance)
     ASSERT_EQ(bake("export p --radiance night --sun 0,-5").exitCode, 0);
     EXPECT_EQ(text("night/light.rad").find("sun"), text("night/light.rad").find("sun and sky"))
         << "no sun below ground";
+}
+
+TEST_F(ReferenceCli, ExportsTheGroundBeyond)
+{
+    PackContent content = test::samplePack();
+    content.skyPatches.push_back({{0, 0, -1}, 6.2831853f, {0.25f, 0.5f, 0.75f, 0.5f}});
+    ASSERT_TRUE(writePack(content, temp_ / "p").ok());
+    ASSERT_EQ(bake("export p --radiance rad --mitsuba m.xml --meters 0 --sun 180,30 --dni 800 --dhi 0").exitCode, 0);
+    // rho / pi x 800 sin 30: a source of Radiance's, and the lower half of Mitsuba's environment map.
+    EXPECT_NE(text("rad/light.rad").find("void glow ground_glow\n0\n0\n4 31.83098861"), std::string::npos);
+    EXPECT_NE(text("rad/light.rad").find("ground_glow source ground\n0\n0\n4 0 0 -1 180\n"), std::string::npos);
+    const std::string map = text("m_sky.pfm");
+    float first[3], last[3];
+    ASSERT_GT(map.size(), 15u + 12u);
+    std::memcpy(first, map.data() + 15, 12);
+    std::memcpy(last, map.data() + map.size() - 12, 12);
+    EXPECT_NEAR(double(first[2]), 95.49296586, 1e-5);
+    EXPECT_EQ(last[2], 0.0f) << "a sky without light";
 }
 
 TEST_F(ReferenceCli, ExportsForMitsuba)

@@ -10,6 +10,7 @@
 #include "engine/view/camera.h"
 #include "engine/view/display.h"
 #include "engine/view/light_state.h"
+#include "shaders/shared/disc.h"
 
 namespace helio {
 
@@ -146,20 +147,112 @@ TEST(Display, LinearOutputHasNoTint)
 {
     LightState light;
     light.towardsSun = sunDirection(150, 40, 0);
-    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, false, 0.0);
+    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, false, {});
     EXPECT_EQ(v.sunLight, glm::vec4(800.0f));
     EXPECT_EQ(v.skyTint, glm::vec4(1.0f));
     EXPECT_NEAR(double(v.zenith.r), 120.0 / 3.14159265, 1e-4);
     EXPECT_EQ(glm::vec3(v.horizon), glm::vec3(v.zenith));
     EXPECT_EQ(glm::vec3(v.ground), glm::vec3(0.0f));
     EXPECT_EQ(forwardParams({}, 1.5, {}, false).eye.w, 0.0f);
+    // A ground beyond the scene is as bright as the light solve has it: rho / pi (DNI sin(elevation) + DHI).
+    const gpu::ViewRecord g = viewRecord({}, 1.5, light, {}, false, {-1.0, {0.1, 0.2, 0.3}});
+    EXPECT_NEAR(double(g.ground.g), 0.2 / 3.14159265 * (800.0 * std::sin(glm::radians(40.0)) + 120.0), 1e-4);
+    EXPECT_EQ(g.horizon.w * g.ground.w, 0.0f) << "no haze over it";
+}
+
+/// Mean over a disc of uniform radiance of what stands above a line, t radii below its centre: its height and its
+/// share.
+struct DiscSums
+{
+    double height = 0.0, share = 0.0;
+};
+DiscSums integrateDisc(double t)
+{
+    constexpr int kSteps = 2000;
+    DiscSums sums;
+    double all = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int k = 0; k < kSteps; ++k) {
+            const double x = (i + 0.5) * 2.0 / kSteps - 1.0, y = (k + 0.5) * 2.0 / kSteps - 1.0;
+            if (x * x + y * y > 1.0) continue;
+            all += 1.0;
+            if (y + t <= 0.0) continue;
+            sums.height += y + t;
+            sums.share += 1.0;
+        }
+    return {sums.height / all, sums.share / all};
+}
+
+TEST(SunDisc, ClosedFormsAgainstQuadrature)
+{
+    for (const double t : {-1.2, -0.9, -0.4, 0.0, 0.3, 0.8, 1.5}) {
+        const DiscSums sums = integrateDisc(t);
+        EXPECT_NEAR(double(gpu::discShare(float(t))), sums.share, 1e-3) << t;
+        EXPECT_NEAR(double(gpu::discHeight(float(t))), sums.height, 1e-3) << t;
+        EXPECT_NEAR(double(gpu::discCosine(float(0.01 * t), 0.01f)), 0.01 * sums.height, 1e-5) << t;
+    }
+    EXPECT_NEAR(double(gpu::discCosine(0.0f, gpu::kSunRadius)), 2.0 / (3.0 * 3.14159265) * 0.0046542, 1e-9);
+    EXPECT_EQ(gpu::discCosine(0.3f, gpu::kSunRadius), 0.3f);
+    EXPECT_EQ(gpu::discCosine(-0.3f, gpu::kSunRadius), 0.0f);
+    EXPECT_EQ(gpu::discCosine(1e-4f, 0.0f), 1e-4f);
+    EXPECT_EQ(gpu::discCosine(-1e-4f, 0.0f), 0.0f);
+    EXPECT_EQ(gpu::discCosine(0.0f, 0.0f), 0.0f);
+}
+
+TEST(SunDisc, TheHorizonCutsIt)
+{
+    const double radius = double(gpu::kSunRadius);
+    LightState light;
+    const glm::dvec3 high = sunDirection(100, 0.3, 0);
+    setSunDisc(light, high, 700.0);
+    EXPECT_EQ(light.towardsSun, high);
+    EXPECT_EQ(light.dni, 700.0);
+    EXPECT_EQ(light.sunRadius, radius);
+    for (const double elevation : {-0.25, -0.1, 0.0, 0.2}) {
+        const glm::dvec3 centre = sunDirection(100, elevation, 0);
+        setSunDisc(light, centre, 700.0);
+        const DiscSums above = integrateDisc(centre.z / radius);
+        EXPECT_TRUE(light.sunUp());
+        EXPECT_NEAR(light.dni, 700.0 * above.share, 1.0) << elevation;
+        EXPECT_NEAR(light.dni * light.towardsSun.z, 700.0 * radius * above.height, 700.0 * radius * 1e-3) << elevation;
+        EXPECT_NEAR(glm::length(light.towardsSun), 1.0, 1e-12);
+        EXPECT_NEAR(light.towardsSun.y / light.towardsSun.x, centre.y / centre.x, 1e-12);
+    }
+    for (const double elevation : {-0.27, -5.0, -90.0}) {
+        setSunDisc(light, sunDirection(100, elevation, 0), 700.0);
+        EXPECT_FALSE(light.sunUp()) << elevation;
+    }
+}
+
+TEST(OutsideRadiance, TheGroundBeyondIsLitBySunAndSky)
+{
+    std::vector<gpu::SkyPatchRecord> patches{{{0, 0, 1}, 3.0f, {}}, {{0, 1, 0}, 3.0f, {}}};
+    LightState light;
+    light.towardsSun = sunDirection(150, 30, 0);
+    constexpr double kPi = 3.14159265358979;
+    const auto near = [](float value, double expected) { EXPECT_NEAR(double(value), expected, 1e-6 * expected); };
+    std::vector<gpu::SkyRadianceRecord> radiance = outsideRadiance(patches, light);
+    ASSERT_EQ(radiance.size(), 2u);
+    near(radiance[1].mean.w, 120.0 / kPi);
+    patches.push_back({{0, 0, -1}, 6.2831853f, {0.1f, 0.2f, 0.3f, 0.4f}});
+    radiance = outsideRadiance(patches, light);
+    ASSERT_EQ(radiance.size(), 3u);
+    near(radiance[2].mean.x, 0.1 / kPi * 520.0);
+    near(radiance[2].mean.w, 0.4 / kPi * 520.0);
+    light.skyRadiance = {{7.0f, {}}, {9.0f, {1.0f, 2.0f}}};
+    light.towardsSun.z = -0.1;
+    radiance = outsideRadiance(patches, light);
+    EXPECT_EQ(radiance[1].mean, glm::vec4(9.0f));
+    EXPECT_EQ(radiance[1].slope, glm::vec2(1.0f, 2.0f));
+    EXPECT_EQ(radiance[2].slope, glm::vec2(0.0f));
+    near(radiance[2].mean.y, 0.2 / kPi * 120.0);
 }
 
 TEST(Display, TintsKeepTheBrightness)
 {
     LightState light;
     light.towardsSun = sunDirection(150, 10, 0);
-    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, true, 0.0);
+    const gpu::ViewRecord v = viewRecord({}, 1.5, light, {}, true, {});
     const auto luminance = [](glm::vec4 c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };
     EXPECT_NEAR(luminance(v.sunLight), 800.0, 0.01);
     EXPECT_NEAR(luminance(v.skyTint), 1.0, 1e-5);

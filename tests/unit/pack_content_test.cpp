@@ -83,7 +83,7 @@ Built buildSample(const ContentLimits& limits = {}, const ShapeTree& shapes = sa
     Built built{buildNodes(shapes, summaries, options), {}};
     LightBake light;
     light.links.rowBegin.assign(built.nodes.tree.nodeCount() + 1, 0);
-    light.sky.skyPatches = {{{0, 0, 1}, 6.2831853f}};
+    light.sky.skyPatches = {{{0, 0, 1}, 6.2831853f, {}}};
     light.sky.rowBegin = {0};
     for (u32 i = 0; i < built.nodes.tree.patchCount(); ++i) {
         light.sky.column.push_back(0);

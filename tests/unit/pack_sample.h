@@ -48,7 +48,7 @@ inline PackContent samplePack()
     c.linkFactors = {0.1f, 0.2f, 0.15f, 0.25f};
     c.linkMoments = {0, 0.01f, 0, 0.02f, -0.01f, 0, 0, 0};
     c.childSlopes = {{-1, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0}, {}, {}};
-    c.skyPatches = {{up, 6.2831853f}};
+    c.skyPatches = {{up, 6.2831853f, {}}};
     c.skyRows = {0, 1, 2, 3};
     c.skyColumns = {0, 0, 0};
     c.skyFactors = {0.5f, 0.5f, 0.6f};

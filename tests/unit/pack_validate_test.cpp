@@ -98,6 +98,23 @@ TEST(PackValidate, EveryFaultIsNamed)
         {"moments", [](C& c) { c.linkMoments.pop_back(); }, "section link moments, byte 0: 7 moments for 4 links"},
         {"moment", [](C& c) { c.linkMoments[3] = INFINITY; }, "section link moments, byte 12: a moment is not finite"},
         {"sky patch", [](C& c) { c.skyPatches[0].solidAngle = 0; }, "section sky patches, byte 0: sky patch 0"},
+        {"sky offsets",
+         [](C& c) {
+             c.skyOffsets = {1, 2};
+         },
+         "section sky offsets, byte 0: 2 offsets for 3 sky links"},
+        {"sky that reflects", [](C& c) { c.skyPatches[0].rho.z = 0.1f; },
+         "section sky patches, byte 0: sky patch 0: reflectance 0.1"},
+        {"far ground that shines",
+         [](C& c) {
+             c.skyPatches.push_back({{0, 0, -1}, 6.28f, glm::vec4(1.5f)});
+         },
+         "section sky patches, byte 32: sky patch 1: reflectance 1.5"},
+        {"far ground before sky",
+         [](C& c) {
+             c.skyPatches.insert(c.skyPatches.begin(), {{0, 0, -1}, 6.28f, {}});
+         },
+         "section sky patches, byte 0: sky patch 0 lies below the horizon and is not the last"},
         {"sky rows", [](C& c) { c.skyRows.push_back(3); }, "section sky rows, byte 0: 5 offsets for 3 rows"},
         {"sky column", [](C& c) { c.skyColumns[1] = 1; }, "section sky columns, byte 4: row 1 refers to column 1 of 1"},
         {"sky factor", [](C& c) { c.skyFactors[2] = 2; }, "section sky factors, byte 8: factor 2 in row 2"},

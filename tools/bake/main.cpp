@@ -137,9 +137,10 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->check(CLI::Range(0u, 65536u))
         ->capture_default_str();
     bake.light.skyPatches = 0;
-    app.add_option("--sky-patches", bake.light.skyPatches,
-                   "parts of the sky that patches know apart; 1 = a smaller pack, for uniform skies only; 0 = 96, or 1 "
-                   "beyond 200,000 patches")
+    app.add_option(
+           "--sky-patches", bake.light.skyPatches,
+           "parts of the sky that patches know apart; 1 = a smaller pack, for uniform skies only; 0 = 48, or 24 "
+           "beyond 200,000 patches")
         ->check(CLI::Range(0u, SkyDome::kMaxCells))
         ->capture_default_str();
     app.add_option("--link-rays", bake.light.raysPerLink, "visibility rays per pair of parts of a link that is seen in part; 0 = 2")

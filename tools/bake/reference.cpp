@@ -8,6 +8,7 @@
 #include "city/base/file.h"
 #include "city/light/path_tracer.h"
 #include "city/pack/patch_scene.h"
+#include "shaders/shared/disc.h"
 #include "tools/bake/interrupt.h"
 #include "tools/bake/progress.h"
 #include "tools/support/complain.h"
@@ -44,9 +45,9 @@ std::string tableOf(const NodeTree& tree, const PathReference& reference, bool e
         std::snprintf(area, sizeof(area), ",%.9g", patch.area);
         text += concat(i, ",", patch.building == kNoIndex ? i64(-1) : i64(patch.building), area);
         for (const glm::dvec4& value :
-             {glm::dvec4(light.sun), glm::dvec4(light.sky), light.indirect,
+             {glm::dvec4(light.sun), light.sky, light.indirect,
               (emission ? patch.emission : glm::dvec4(0.0)) + patch.rho * total, glm::dvec4(light.sunError),
-              glm::dvec4(light.skyError), light.indirectError, light.totalError})
+              light.skyError, light.indirectError, light.totalError})
             append(text, value);
         text += "\n";
     }
@@ -69,6 +70,7 @@ CLI::App* addReferenceCommand(CLI::App& app, ReferenceOptions& options)
     command->add_option("--jobs", options.jobs, "threads; 0 = all cores; the table does not depend on it")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
+    command->add_flag("--sun-disc", options.sunDisc, "the sun is a disc of 0.53 degrees with penumbras, not a point");
     command->add_flag("--no-emission", options.noEmission, "switch off what patches emit themselves");
     return command;
 }
@@ -90,7 +92,9 @@ int runReference(const ReferenceOptions& options)
     const PathReference reference = tracePaths(tree, visibility,
                                                {.toSun = *toSun,
                                                 .dni = options.light.dni,
+                                                .sunRadius = options.sunDisc ? double(gpu::kSunRadius) : 0.0,
                                                 .dhi = options.light.dhi,
+                                                .farGround = glm::dvec4(farGroundOf(pack->tile())),
                                                 .emission = !options.noEmission,
                                                 .samples = options.samples,
                                                 .seed = options.seed,
@@ -102,10 +106,10 @@ int runReference(const ReferenceOptions& options)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.clear();
     if (InterruptGuard::caught() != 0) dieOf(InterruptGuard::caught());
-    const std::string note =
-        concat("path tracing, ", reference.samples, " paths a patch in ", reference.groups, " groups, seed ",
-               options.seed, "; sun ", options.light.sun, ", DNI ", options.light.dni, ", DHI ", options.light.dhi,
-               "; ", reference.cutPaths, " paths cut off after ", kMostBounces, " bounces");
+    const std::string note = concat(
+        "path tracing, ", reference.samples, " paths a patch in ", reference.groups, " groups, seed ", options.seed,
+        "; sun ", options.light.sun, options.sunDisc ? " (disc)" : "", ", DNI ", options.light.dni, ", DHI ",
+        options.light.dhi, "; ", reference.cutPaths, " paths cut off after ", kMostBounces, " bounces");
     if (Status written = writeTextAtomically(options.output, tableOf(tree, reference, !options.noEmission, note));
         !written)
         return complain(written.error().message, kBadInput);

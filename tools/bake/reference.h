@@ -12,6 +12,7 @@ struct ReferenceOptions
     SunOptions light;
     u32 samples = 1024, jobs = 0;
     u64 seed = 1;
+    bool sunDisc = false; ///< the sun is a disc with penumbras, not a point
     bool noEmission = false;
 };
 

@@ -6,19 +6,19 @@
 #include "city/sky/calendar.h"
 #include "city/sky/clear_sky.h"
 #include "city/sky/solar_position.h"
-#include "engine/view/light_state.h"
 
 namespace helio {
 namespace {
 
-/// The dome that a pack's sky patches are the cells of. Error: none.
+/// The dome that a pack's sky patches but the ground beyond are the cells of. Error: none.
 Result<SkyDome> domeOf(const Pack& pack)
 {
     const auto& patches = pack.tile().skyPatches;
     const Error other{
-        "the pack does not know parts of the sky apart: bake it with --sky-patches 96, or use --sky uniform"};
-    if (patches.size() < 2 || patches.size() > SkyDome::kMaxCells) return other;
-    const SkyDome dome(u32(patches.size()));
+        "the pack does not know parts of the sky apart: bake it with --sky-patches 48, or use --sky uniform"};
+    const u32 cells = skyCellCount(patches);
+    if (cells < 2 || cells > SkyDome::kMaxCells) return other;
+    const SkyDome dome(cells);
     for (u32 cell = 0; cell < dome.cellCount(); ++cell)
         if (!(glm::distance(glm::dvec3(patches[cell].direction), dome.centreOf(cell)) < 1e-5)) return other;
     return dome;
@@ -66,7 +66,9 @@ Result<Daylight> daylightOver(const Pack& pack, const DaylightOptions& options)
             shape = cieSky(options.sky.cieType, toSun);
         else if (light.dhi > 0.0)
             shape = perezSky(light.dni, light.dhi, extraterrestrial, toSun);
-        for (const double value : domeRadiance(*dome, shape, light.dhi)) light.skyRadiance.push_back(float(value));
+        const bool linear = !pack.tile().skyOffsets.empty();
+        for (const CellSky& cell : domeRadiance(*dome, shape, light.dhi, linear))
+            light.skyRadiance.push_back({float(cell.mean), glm::vec2(cell.slope)});
     }
     light.description = concat(when, "sun azimuth ", light.azimuthDeg, " elevation ", light.elevationDeg,
                                " degrees, DNI ", light.dni, ", ", nameOf(options.sky), " DHI ", light.dhi);

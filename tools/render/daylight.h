@@ -6,6 +6,7 @@
 #include "city/base/result.h"
 #include "city/format/pack.h"
 #include "city/sky/sky_model.h"
+#include "engine/view/light_state.h"
 
 namespace helio {
 
@@ -25,7 +26,7 @@ struct Daylight
 {
     double azimuthDeg = 0.0, elevationDeg = 0.0; ///< clockwise from true north; as it appears, refraction included
     double dni = 0.0, dhi = 0.0;                 ///< W/m2
-    std::vector<float> skyRadiance;              ///< W/m2/sr of the pack's sky patches; empty = uniform
+    std::vector<CellRadiance> skyRadiance;       ///< of the cells of the pack's sky; empty = uniform
     std::string description;                     ///< one line
 };
 

@@ -56,7 +56,10 @@ void LinkRefiner::weighNearParts(Pair& pair) const
         for (u32 j = 0; j < b.count; ++j) {
             const glm::vec3 d = between + glm::vec3(b.x[j] - a.x[i], b.y[j] - a.y[i], b.z[j] - a.z[i]);
             const float reach = kExactDistance * (a.radius[i] + b.radius[j]);
-            if (glm::dot(d, d) < reach * reach) pair.exchange[i][j] = float(s_.transfer.between(a.node[i], b.node[j]));
+            if (glm::dot(d, d) < reach * reach) {
+                pair.exchange[i][j] = float(s_.transfer.between(a.node[i], b.node[j]));
+                pair.touches = pair.touches || pair.exchange[i][j] > 0.0f;
+            }
             pair.total += pair.exchange[i][j];
         }
     }
@@ -154,7 +157,7 @@ LinkRefiner::Verdict LinkRefiner::judge(const Pair& pair, bool toA) const
     v.visibilityError =
         strength(receiver, sender, double(pair.total)) * (pair.mean * (1.0 - pair.mean) / n + 1.0 / (n * n));
     v.good = double(v.error.sender) + double(v.error.receiver) + kVisibilityError * v.visibilityError <= s_.tolerance &&
-             (!s_.leafReceivers || s_.tree.isLeaf(receiver));
+             ((!s_.leafReceivers && !pair.touches) || s_.tree.isLeaf(receiver));
     return v;
 }
 
@@ -194,10 +197,11 @@ void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, u32 directions, Sight
     if ((directions & kToB) != 0) link(b, a, transfer * open, 0.0, 0.0);
 }
 
-bool LinkRefiner::splitsReceiver(const Verdict& v, u32 receiver, u32 sender) const
+bool LinkRefiner::splitsReceiver(const Verdict& v, bool touches, u32 receiver, u32 sender) const
 {
     if (s_.tree.isLeaf(receiver)) return false;
     if (s_.tree.isLeaf(sender) || s_.leafReceivers) return true;
+    if (touches && s_.transfer.radius(receiver) >= s_.transfer.radius(sender)) return true;
     if (kVisibilityError * v.visibilityError > double(v.error.sender + v.error.receiver))
         return s_.tree.nodes[receiver].area >= s_.tree.nodes[sender].area;
     // Halving the larger one helps the later levels more than the errors of this one say.
@@ -274,8 +278,8 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB, u32 directions, Sight sight)
             link(nodeB, nodeA, transfer * pair.mean, scale * double(toB.error.momentX), scale * double(toB.error.momentY));
     }
     u32 openA = 0, openB = 0;
-    if ((directions & kToA) != 0 && !toA.good) (splitsReceiver(toA, nodeA, nodeB) ? openA : openB) |= kToA;
-    if ((directions & kToB) != 0 && !toB.good) (splitsReceiver(toB, nodeB, nodeA) ? openB : openA) |= kToB;
+    if ((directions & kToA) != 0 && !toA.good) (splitsReceiver(toA, pair.touches, nodeA, nodeB) ? openA : openB) |= kToA;
+    if ((directions & kToB) != 0 && !toB.good) (splitsReceiver(toB, pair.touches, nodeB, nodeA) ? openB : openA) |= kToB;
     split(nodeA, nodeB, openA, openB, sight);
 }
 

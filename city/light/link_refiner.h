@@ -57,6 +57,9 @@ private:
         PartMatrix asked{};    // rays
         PartMatrix open;       // visible share that they tell
         double mean = 1.0;     // of `open`, weighted with the exchange
+        /// Parts are so near that a patch below them may see the other node quite differently from what the rays of the
+        /// whole tell: no link ends at a node that is not a patch.
+        bool touches = false;
         u32 rays = 0;
         u32 knownRays = 0;     // with those of the pairs above that agree
     };
@@ -77,7 +80,7 @@ private:
     void look(Pair& pair, u32 rays) const;
     static void weighRays(Pair& pair);
     Verdict judge(const Pair& pair, bool toA) const;
-    bool splitsReceiver(const Verdict& verdict, u32 receiver, u32 sender) const;
+    bool splitsReceiver(const Verdict& verdict, bool touches, u32 receiver, u32 sender) const;
     /// Weighted squared irradiance of the receiver: the error if nothing were known of the sender.
     double strength(u32 receiver, u32 sender, double exchange) const;
     u32 faintDirections(const Pair& pair) const;

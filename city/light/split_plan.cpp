@@ -19,7 +19,7 @@ namespace helio {
 namespace {
 
 constexpr u32 kFewestCells = 16, kMostCells = 1024, kPointsPerCell = 4;
-constexpr double kLargeCell = 1.0; // m2: patches whose cells would be larger get more of them
+constexpr double kLargeCell = 2.0; // m2: patches whose cells would be larger get more of them
 constexpr u32 kNearRays = 64;
 constexpr double kNearest = 0.1; // m: nearer surfaces count as this far
 

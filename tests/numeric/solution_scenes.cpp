@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/packing.hpp>
 #include <numbers>
 #include <optional>
 
@@ -208,7 +210,14 @@ struct Baked
     std::vector<double> areas, sky, radiosity;
 };
 
-Baked bakeScene(const std::vector<Face>& faces, u32 skyPatches, const std::vector<double>& radiance)
+/// Radiance of a cell in the middle of what a patch sees of it (SkyTable::offset).
+double radianceAt(const CellSky& cell, u32 offset)
+{
+    const glm::dvec2 place = 0.5 * glm::dvec2(glm::unpackSnorm2x16(offset));
+    return cell.mean + glm::dot(cell.slope, place);
+}
+
+Baked bakeScene(const std::vector<Face>& faces, u32 skyPatches, const std::vector<CellSky>& radiance)
 {
     Baked out;
     out.tree = makeTree(faces);
@@ -220,7 +229,8 @@ Baked bakeScene(const std::vector<Face>& faces, u32 skyPatches, const std::vecto
     for (u32 i = 0; i < n; ++i) {
         double sum = 0.0;
         for (u32 k = bake.sky.rowBegin[i]; k < bake.sky.rowBegin[i + 1]; ++k)
-            sum += kPi * double(bake.sky.factor[k]) * radiance[bake.sky.column[k]];
+            sum += kPi * double(bake.sky.factor[k]) *
+                   radianceAt(radiance[bake.sky.column[k]], bake.sky.offset.empty() ? 0u : bake.sky.offset[k]);
         out.sky.push_back(sum);
         sky[i] = glm::dvec4(sum);
     }
@@ -257,7 +267,7 @@ std::vector<Face> canyonFaces(const Canyon& canyon, u32 partsAcross, u32 partsAl
 Quantities canyonBaked(const Canyon& canyon)
 {
     constexpr u32 kAcross = 18, kAlong = 15, kMiddle = 9;
-    const Baked baked = bakeScene(canyonFaces(canyon, kAcross, kAlong), 1, {1.0 / kPi});
+    const Baked baked = bakeScene(canyonFaces(canyon, kAcross, kAlong), 1, {{1.0 / kPi}});
     const size_t side = size_t(kAcross) * kAlong, middle = size_t(kAlong - kMiddle) / 2 * kAcross,
                  count = size_t(kMiddle) * kAcross;
     const auto mean = [&](size_t face) {
@@ -323,13 +333,13 @@ Quantities solveBaked(const std::string& scene, u32 skyPatches)
     constexpr size_t kPerSscenee = size_t(kCuts) * kCuts;
     if (const std::optional<Canyon> canyon = canyonOf(scene)) return canyonBaked(*canyon);
     if (scene == "W01") {
-        const Baked baked = bakeScene(cube(graded(kCuts)), 1, {0.0});
+        const Baked baked = bakeScene(cube(graded(kCuts)), 1, {{0.0}});
         return roomMeans(baked.areas, baked.radiosity, kPerSscenee);
     }
     if (scene != "W02") return skyBaked(scene, skyPatches);
     std::vector<Face> faces = courtyard(graded(kCuts));
     faces.erase(faces.begin() + kPerSscenee, faces.begin() + 2 * kPerSscenee); // open above
-    const Baked baked = bakeScene(faces, 1, {1.0 / kPi});
+    const Baked baked = bakeScene(faces, 1, {{1.0 / kPi}});
     return {{"floor mean radiosity", meanOf(baked.areas, baked.radiosity, 0, kPerSscenee)},
             {"wall mean radiosity", meanOf(baked.areas, baked.radiosity, kPerSscenee, 5 * kPerSscenee)},
             {"courtyard albedo (flux out / flux in)", albedoOf(baked, 0, 5 * kPerSscenee, 400.0)}};
@@ -360,7 +370,7 @@ std::map<std::string, Traced> solveTraced(const std::string& scene, u32 samples)
         for (const size_t side : sides) {
             const PatchLight& light = paths.patches[side * stride + first];
             const Patch& patch = tree.patches[side * stride + first];
-            mean.value += (patch.emission.x + patch.rho.x * (light.sky + light.indirect.x)) / double(sides.size());
+            mean.value += (patch.emission.x + patch.rho.x * (light.sky.x + light.indirect.x)) / double(sides.size());
             mean.error = std::hypot(mean.error, patch.rho.x * light.totalError.x / double(sides.size()));
         }
         return mean;
@@ -373,7 +383,7 @@ std::map<std::string, Traced> solveTraced(const std::string& scene, u32 samples)
     for (size_t i = first; i < faces.size(); i += stride) {
         const PatchLight& light = paths.patches[i];
         const double share = tree.patches[i].area * (1.0 - tree.patches[i].rho.x) / opening;
-        albedo.value -= share * (light.sky + light.indirect.x);
+        albedo.value -= share * (light.sky.x + light.indirect.x);
         albedo.error = std::hypot(albedo.error, share * light.totalError.x);
     }
     if (scene == "W02")

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures packs: what they cost, and how far their light is from the reference."""
+import re
+
+from methods import BEST, METHODS, SWITCHES
+from pack_file import Pack
+from programs import Failed
+from scenes import light_arguments
+from tables import read_light, judge
+
+MOST_LINKS = 220.0      # per patch: where a curve ends
+
+
+def predicted_error(text, stats):
+    """The error that the bake itself predicts, if it does: a fraction."""
+    for key in ("predicted_error", "predicted_rms"):
+        if isinstance(stats.get(key), (int, float)):
+            return float(stats[key])
+    found = re.search(r"predicted error\D*([\d.]+) ?%", text)
+    return float(found[1]) / 100 if found else None
+
+
+def cost_of(pack, stats):
+    """Size of a pack and cost of its bake, for the report's JSON."""
+    tile = Pack(pack)
+    patches, links = stats["patches"], stats["links"]
+    return {"command": stats["command"], "patches": patches, "nodes": stats["nodes"], "links": links,
+            "links_per_patch": links / patches, "bake_seconds": stats["process_seconds"],
+            "bake_processor_seconds": stats["processor_seconds"], "steps": stats["seconds"],
+            "steps_light": stats.get("seconds_light"), "peak_mib": stats["process_peak_mib"],
+            "threshold": stats.get("error_a_link_may_leave"), "closure_defect": stats.get("closure_defect"),
+            "predicted_error": predicted_error(stats["text"], stats), "pack_bytes": tile.bytes,
+            "bytes_per_patch": tile.bytes / patches, "bytes_per_link": tile.link_bytes() / max(links, 1),
+            "linear_senders": tile.linear()}
+
+
+def own_direct_light(programs, scene, pack, case, cache):
+    """A table of the pack's own E_sun and E_sky by rays, for --first-light."""
+    key = (Pack(pack).geometry_key(), case)
+    if key not in cache:
+        table = programs.work / f"{scene.name}.direct-{len(cache)}.csv"
+        programs.run("heliopolis-bake", ["reference", pack, *light_arguments(case), "--spp", 1024, "-o", table])
+        cache[key] = table
+    return cache[key]
+
+
+def errors_of(programs, scene, pack, arguments=(), direct=None):
+    """{case: {quantity: figures}} and the solver's sweeps; "A+sky" has the total under sun and sky together."""
+    errors, light, solves = {}, {}, {}
+    table = programs.work / "table.csv"
+    for case in scene.cases():
+        words = [own_direct_light(programs, scene, pack, case, direct) if word == "@" else word for word in arguments]
+        solves[case] = programs.render(pack, [*light_arguments(case), "--table", table, "--per",
+                                              "face" if scene.faces else "patch", *words])
+        light[case] = read_light(table)
+        reference = scene.reference(programs, pack, case)
+        figures = {q: judge(light[case], reference, q) for q in ("E_sun", "E_sky", "E_indirect", "E_total")}
+        errors[case] = {quantity: f for quantity, f in figures.items() if f}
+    if "A" in light and "sky" in light:
+        both = scene.reference(programs, pack, "A").plus(scene.reference(programs, pack, "sky"))
+        errors["A+sky"] = {q: judge(light["A"].plus(light["sky"]), both, q) for q in ("E_indirect", "E_total")}
+    return errors, solves
+
+
+def point(programs, scene, arguments, say, bench_repeats=0, render=(), direct=None):
+    """Bakes with these arguments and measures cost and errors."""
+    pack = programs.work / f"{scene.name}.pack"
+    stats = programs.bake(pack, scene.inputs, arguments)
+    result = cost_of(pack, stats)
+    result["errors"], result["solves"] = errors_of(programs, scene, pack, render, direct)
+    if bench_repeats:
+        result["bench"] = programs.bench(pack, bench_repeats)
+    shown = ", ".join(f"{case} {100 * e['E_indirect']['rms']:.2f}" for case, e in result["errors"].items()
+                      if "E_indirect" in e and case != "A+sky")
+    say(f"  {scene.name} {' '.join(str(a) for a in arguments) or '(default)'}: {result['patches']} patches, "
+        f"{result['links_per_patch']:.1f} links a patch, {result['bake_seconds']:.1f} s; E_indirect rms % {shown}")
+    return result
+
+
+def curve(programs, scene, method, say, options):
+    """Points of one method on one scene, from few links to many."""
+    points = []
+    values = method.values[1::2] if options.quick else method.values
+    for value in values:
+        try:
+            points.append({"value": value, **point(programs, scene, [*method.arguments, method.option, value], say,
+                                                   bench_repeats=1 if method.name == BEST and scene.faces else 0)})
+        except Failed as failure:
+            say(f"  left out: {failure}")
+            continue
+        last = points[-1]
+        if last["links_per_patch"] > MOST_LINKS or last["bake_seconds"] > options.longest:
+            break
+    return points
+
+
+def curves(programs, scene, say, options, notes):
+    """{method: points}, without the methods that this build lacks."""
+    result = {}
+    for method in METHODS:
+        # Real cities have a path-traced reference for each set of patches: the default alone is swept there.
+        wanted = scene.name in method.scenes if method.scenes else True
+        if not wanted or (not scene.faces and options.quick):
+            continue
+        lacking = programs.missing("heliopolis-bake", [*method.arguments, method.option])
+        if lacking:
+            note = f"Method \"{method.name}\" is left out: this build has no {' '.join(lacking)}."
+            if note not in notes:
+                notes.append(note)
+            continue
+        say(f"{scene.title}: {method.name}")
+        result[method.name] = curve(programs, scene, method, say, options)
+    return result
+
+
+def switches(programs, scene, threshold, say, notes):
+    """[{name, ...point}]: each source of error set to its reference in turn."""
+    rows, direct = [], {}
+    say(f"{scene.title}: sources of error")
+    for switch in SWITCHES:
+        bake = [*switch.bake, *(["--epsilon", threshold * switch.finer] if switch.finer else [])]
+        lacking = programs.missing("heliopolis-bake", bake) + programs.missing("heliopolis-render", switch.render)
+        if lacking:
+            note = f"Switch \"{switch.name}\" is left out: this build has no {' '.join(lacking)}."
+            if note not in notes:
+                notes.append(note)
+            continue
+        try:
+            rows.append({"name": switch.name, **point(programs, scene, bake, say, render=switch.render, direct=direct)})
+        except Failed as failure:
+            notes.append(f"Switch \"{switch.name}\" on {scene.name} failed: {failure}")
+    return rows

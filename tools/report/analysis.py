@@ -50,12 +50,3 @@ def paid_after(bake_seconds, seconds_each, peer_seconds_each, peer_once=0.0):
     if ahead <= 0:
         return 0 if gain >= 0 else None
     return math.ceil(ahead / gain) if gain > 0 else None
-
-
-def halvings(first, last):
-    """first, first/2, ... down to last."""
-    values = []
-    while first >= last * 0.999:
-        values.append(first)
-        first /= 2
-    return values

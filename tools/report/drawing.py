@@ -110,8 +110,9 @@ def neighbours_of(leaves, building):
     return int(min(others, key=lambda b: np.linalg.norm(centroids[owners == b].mean(axis=0) - centre)))
 
 
-def links_figure(leaves, links, first, second, most=1200):
-    """Links among two buildings and the ground around them: lines between the centroids of sender and receiver."""
+def links_figure(leaves, links, first, second, most=400):
+    """Links among two buildings and the ground around them: lines between the centroids of sender and receiver, the `most`
+    of each kind that carry most."""
     rows, columns, factors = links
     centroid, owner = leaves.infos["centroid"], leaves.infos["building"]
     count = len(leaves.patches)
@@ -123,18 +124,18 @@ def links_figure(leaves, links, first, second, most=1200):
     kept = inside[receiver] & inside[columns] & (owner[receiver] != owner[columns])
     r, s = receiver[kept], columns[kept].astype(np.int64)
     exchange = leaves.nodes["area"][r] * factors[kept]
-    order = np.argsort(exchange)[-most:]
+    order = np.argsort(exchange)
     view = View(elevation=28.0)
     shown = np.flatnonzero(inside[:count])
     figure, axes = plt.subplots(figsize=(9, 6.5))
     draw_patches(axes, leaves, view, shown, np.full((len(shown), 3), 0.93), edge="#00000020")
     ground = (owner[r] == NONE) | (owner[s] == NONE)
     ends = np.stack([view.flat(centroid[r]), view.flat(centroid[s])], axis=1)
-    strength = np.sqrt(exchange / exchange.max()) if len(exchange) else exchange
+    drawn = 0
     for mask, colour, name in ((ground, "#1b7837", "building and street"), (~ground, "#b2182b", "building and building")):
-        chosen = order[mask[order]]
-        axes.add_collection(LineCollection(ends[chosen], colors=colour, linewidths=0.2 + 1.3 * strength[chosen],
-                                           alpha=0.35, label=f"{name}: {int(mask.sum())} links"))
+        chosen = order[mask[order]][-most:]
+        drawn += len(chosen)
+        axes.add_collection(LineCollection(ends[chosen], colors=colour, linewidths=0.5, alpha=0.4, label=f"{name}: {int(mask.sum())} links"))
     axes.legend(loc="upper right", fontsize=9)
     figure.tight_layout()
-    return figure, {"links": int(kept.sum()), "drawn": int(min(most, kept.sum())), "with_ground": int(ground.sum())}
+    return figure, {"links": int(kept.sum()), "drawn": drawn, "with_ground": int(ground.sum())}

@@ -40,24 +40,31 @@ def convergence(programs, pack, say):
 
 
 def sweep_pictures(programs, scene, pack, output, say):
-    """Pictures after 0, 1, 2 and 3 sweeps at one exposure. None: a bake whose links end at 1 mm has none to speak of."""
+    """Pictures after 0, 1, 2 and 3 sweeps at one exposure. 0 sweeps: the paper's method as printed, with a threshold below
+    which no link falls, has no links, so its picture is that of first-hand light."""
     import mitsuba as mi
     mi.set_variant("scalar_rgb")
     dark = programs.work / "dark.pack"
-    programs.bake(dark, scene.inputs, ["--method", "paper", "--epsilon", 1, "--cutoff", 0.001])
-    pictures = []
-    for sweeps in range(4):
-        picture = programs.work / f"sweeps-{sweeps}.exr"
-        programs.render(dark if sweeps == 0 else pack,
-                        [*LIGHT, "--iterations", max(sweeps, 1), "--exr", picture, "--size", "640x400", "--samples", 2])
-        pictures.append(np.array(mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)))
-    white = np.percentile(pictures[3], 97)
-    figure, axes = drawing.plt.subplots(2, 2, figsize=(11, 7.2))
-    for sweeps, (axis, picture) in enumerate(zip(axes.flat, pictures)):
-        axis.imshow(np.clip(picture / white, 0, 1) ** (1 / 2.2))
-        axis.set_title(f"{sweeps} sweep{'s' * (sweeps != 1)}", fontsize=10)
-        axis.axis("off")
-    figure.tight_layout()
+    programs.bake(dark, scene.inputs, ["--method", "paper-literal", "--epsilon", 1e-6, "--cutoff", 0.001])
+    figure, axes = drawing.plt.subplots(2, 4, figsize=(16, 5.6), layout="constrained")
+    for row, (view, title) in enumerate((("final", "picture"), ("eindirect", "E_indirect"))):
+        pictures = []
+        for sweeps in range(4):
+            picture = programs.work / f"sweeps-{view}-{sweeps}.exr"
+            programs.render(dark if sweeps == 0 else pack,
+                            [*LIGHT, "--iterations", max(sweeps, 1), "--view", view, "--exr", picture, "--size", "640x400",
+                             "--samples", 2 if view == "final" else 1])
+            pictures.append(np.array(mi.Bitmap(str(picture)))[..., :3].astype(float))
+        white = np.percentile(pictures[3], 97)
+        for sweeps, picture in enumerate(pictures):
+            axis = axes[row][sweeps]
+            if view == "final":
+                axis.imshow(np.clip(picture / white, 0, 1) ** (1 / 2.2))
+            else:
+                shown = axis.imshow(picture.mean(axis=-1), cmap="viridis", vmin=0, vmax=white)
+            axis.set_title(f"{title}, {sweeps} sweep{'s' * (sweeps != 1)}", fontsize=10)
+            axis.axis("off")
+    figure.colorbar(shown, ax=axes, fraction=0.015, label="E_indirect, W/m2")
     return save(figure, output, f"sweeps_{scene.name}")
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures packs: what they cost, and how far their light is from the reference."""
+import math
 import re
 
 from methods import BEST, METHODS, SWITCHES
@@ -8,7 +9,8 @@ from programs import Failed
 from scenes import light_arguments
 from tables import read_light, judge
 
-MOST_LINKS = 220.0      # per patch: where a curve ends
+LEAST_LINKS, MOST_LINKS = 5.0, 200.0    # per patch: where a curve ends
+MOST_STEPS = 12                         # from the default, each way
 
 
 def predicted_error(text, stats):
@@ -24,10 +26,12 @@ def cost_of(pack, stats):
     """Size of a pack and cost of its bake, for the report's JSON."""
     tile = Pack(pack)
     patches, links = stats["patches"], stats["links"]
+    faces = tile.source_faces()
     return {"command": stats["command"], "patches": patches, "nodes": stats["nodes"], "links": links,
+            "patches_per_face": patches / faces if faces else None,
             "links_per_patch": links / patches, "bake_seconds": stats["process_seconds"],
             "bake_processor_seconds": stats["processor_seconds"], "steps": stats["seconds"],
-            "steps_light": stats.get("seconds_light"), "peak_mib": stats["process_peak_mib"],
+            "steps_light": stats.get("seconds_light"), "peak_mib": stats["peak_memory_mib"],
             "threshold": stats.get("error_a_link_may_leave"), "closure_defect": stats.get("closure_defect"),
             "predicted_error": predicted_error(stats["text"], stats), "pack_bytes": tile.bytes,
             "bytes_per_patch": tile.bytes / patches, "bytes_per_link": tile.link_bytes() / max(links, 1),
@@ -77,39 +81,61 @@ def point(programs, scene, arguments, say, bench_repeats=0, render=(), direct=No
     return result
 
 
-def curve(programs, scene, method, say, options):
-    """Points of one method on one scene, from few links to many."""
-    points = []
-    values = method.values[1::2] if options.quick else method.values
-    for value in values:
+def walk(measure_at, start, growth):
+    """Points from a method's own default outward, in steps that change the links by about `growth`, to LEAST_LINKS and to
+    MOST_LINKS or until a bake takes too long. measure_at(threshold): a point, or None at the end."""
+    points = [start]
+    for direction in (1.0, -1.0):
+        last, factor = start, 2.0
+        for _ in range(MOST_STEPS):
+            links = last["links_per_patch"]
+            if not LEAST_LINKS < links < MOST_LINKS and (links > MOST_LINKS) != (direction > 0):
+                break
+            point_ = measure_at(last["threshold"] * factor ** direction)
+            if point_ is None:
+                break
+            points.append(point_)
+            change = abs(math.log(point_["links_per_patch"] / links)) if point_["links_per_patch"] > 0 < links else 0.0
+            factor = min(64.0, max(1.2, factor ** (math.log(growth) / max(change, 0.05))))
+            last = point_
+    return sorted(points, key=lambda p: p["links_per_patch"])
+
+
+def curve(programs, scene, method, say, options, default):
+    """Points of one method on one scene, from few links to many. default: the point of the default bake."""
+    def measure_at(threshold):
+        arguments = [*method.arguments, *([] if threshold is None else ["--epsilon", f"{threshold:.4g}"])]
         try:
-            points.append({"value": value, **point(programs, scene, [*method.arguments, method.option, value], say,
-                                                   bench_repeats=1 if method.name == BEST and scene.faces else 0)})
+            made = point(programs, scene, arguments, say, bench_repeats=1 if method.name == BEST and scene.faces else 0)
         except Failed as failure:
             say(f"  left out: {failure}")
-            continue
-        last = points[-1]
-        if last["links_per_patch"] > MOST_LINKS or last["bake_seconds"] > options.longest:
-            break
-    return points
+            return None
+        # Too long: the point counts, but is the last one.
+        return made if made["bake_seconds"] <= options.longest or threshold is None else None
+
+    if method.values:
+        values = method.values[1::2] if options.quick else method.values
+        return [made for made in map(measure_at, values) if made]
+    start = default if not method.arguments else measure_at(None)
+    if start is None:
+        return []
+    return walk(measure_at, start, 2.5 if options.quick or not scene.faces else 1.5) if start["threshold"] else [start]
 
 
-def curves(programs, scene, say, options, notes):
+def curves(programs, scene, say, options, notes, default):
     """{method: points}, without the methods that this build lacks."""
     result = {}
     for method in METHODS:
-        # Real cities have a path-traced reference for each set of patches: the default alone is swept there.
-        wanted = scene.name in method.scenes if method.scenes else True
-        if not wanted or (not scene.faces and options.quick):
+        if (method.scenes and scene.name not in method.scenes) or (not scene.faces and options.quick):
             continue
-        lacking = programs.missing("heliopolis-bake", [*method.arguments, method.option])
+        lacking = programs.missing("heliopolis-bake", [*method.arguments, "--epsilon"])
         if lacking:
             note = f"Method \"{method.name}\" is left out: this build has no {' '.join(lacking)}."
             if note not in notes:
                 notes.append(note)
             continue
         say(f"{scene.title}: {method.name}")
-        result[method.name] = curve(programs, scene, method, say, options)
+        result[method.name] = curve(programs, scene, method, say, options, default)
     return result
 
 
@@ -118,7 +144,10 @@ def switches(programs, scene, threshold, say, notes):
     rows, direct = [], {}
     say(f"{scene.title}: sources of error")
     for switch in SWITCHES:
-        bake = [*switch.bake, *(["--epsilon", threshold * switch.finer] if switch.finer else [])]
+        bake = [*switch.bake, *(["--epsilon", (threshold or 0) * switch.finer] if switch.finer else [])]
+        if switch.finer and not threshold:
+            notes.append(f"Switch \"{switch.name}\" is left out: the bake does not state its threshold.")
+            continue
         lacking = programs.missing("heliopolis-bake", bake) + programs.missing("heliopolis-render", switch.render)
         if lacking:
             note = f"Switch \"{switch.name}\" is left out: this build has no {' '.join(lacking)}."

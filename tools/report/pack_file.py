@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads a pack's tile as numpy arrays (city/format/README.md says what every byte means)."""
+import json
 import pathlib
 import struct
 
@@ -45,6 +46,11 @@ class Pack:
     def geometry_key(self):
         """The same for packs with the same patches, whatever their links."""
         return "-".join(f"{self.sections[number][4]:016x}" for number in GEOMETRY)
+
+    def source_faces(self):
+        """Faces of the OBJ file that the pack was made from; 0 for cities."""
+        text = (self.path.parent / "index").read_text(encoding="utf-8")
+        return int(json.JSONDecoder().raw_decode(text, text.index("{"))[0]["source_faces"])
 
     def link_bytes(self):
         """Bytes in the file of columns, factors and moments; rows and what the tree adds are not in it."""

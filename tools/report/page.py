@@ -74,6 +74,29 @@ def beside_prototype(name, scene):
     return rows
 
 
+def summary(scenes):
+    """One row a scene: the default bake."""
+    rows = []
+    for name, scene in scenes.items():
+        point = scene.get("default")
+        if not point:
+            continue
+        errors = [point["errors"].get(case, {}).get("E_indirect") for case in plots.CASE_TITLES]
+        known = [f for f in errors if f]
+        sun = [e["E_sun"]["rms"] for e in point["errors"].values() if e.get("E_sun")]
+        total = point["errors"].get("A+sky", {}).get("E_total")
+        ms = point.get("bench", {}).get("ms", {}).get("sun change, cold", {}).get("real_time")
+        rows.append([name, point["patches"], f"{point['patches_per_face']:.2f}" if point.get("patches_per_face") else "",
+                     f"{point['links_per_patch']:.1f}", *(percent(f["rms"]) if f else "" for f in errors),
+                     percent(max(known, key=lambda f: abs(f["bias"]))["bias"], 2, True),
+                     percent(max(f["p95"] for f in known)), percent(max(sun)) if sun else "",
+                     percent(total["rms"]) if total else "", percent(point.get("predicted_error")),
+                     f"{point['bake_seconds']:.1f}", f"{ms['median']:.0f}" if ms else ""])
+    return table(["default bake of", "patches", "per face", "links/patch", *(f"E_ind rms {c}, %" for c in plots.CASE_TITLES),
+                  "worst bias, %", "worst P95, %", "worst E_sun rms, %", "total rms, %", "predicted, %", "bake, s",
+                  "relight, ms"], rows)
+
+
 def scene_section(name, scene, made):
     text = [f"<h2>{escape(scene['title'])}</h2>"]
     if scene.get("default"):
@@ -81,7 +104,10 @@ def scene_section(name, scene, made):
         text.append(table(COST_HEAD, [cost_cells(point)]))
         text.append(table(ERROR_HEAD, error_rows(point)))
         text.append(f'<p class="note">Reference: {escape(scene["reference"])}. rms has the reference\'s noise subtracted; '
-                    "P95 and maximum have not.</p>")
+                    "P95 and maximum have not."
+                    + ("" if point.get("patches_per_face") else " The sun raster sees the assets (cornices, dormers, balconies), "
+                       "the path tracer the patches alone: part of the error of E_sun, and what follows from it in "
+                       "E_indirect, is that difference; the last table tells them apart.") + "</p>")
     text.append(picture(made, f"links:{name}", "Error of E_indirect against links per patch; bars: one standard error of "
                         "what the reference's noise does to the rms."))
     text.append(picture(made, f"bake:{name}", "The same against the seconds of the bake."))
@@ -89,7 +115,7 @@ def scene_section(name, scene, made):
         rows = []
         for method, points in scene["curves"].items():
             for p in points:
-                rows.append([method, f"{p['value']:g}", *cost_cells(p)[:-1],
+                rows.append([method, f"{p['threshold']:.3g}", *cost_cells(p)[:-1],
                              *(percent(p["errors"].get(c, {}).get("E_indirect", {}).get("rms")) for c in plots.CASE_TITLES),
                              percent(p["errors"].get("A", {}).get("E_indirect", {}).get("bias"), 2, True)])
         text.append("<details><summary>All points</summary>" +
@@ -159,8 +185,8 @@ def figures_section(data, made):
         text += [f"<h3>{escape(entry['title'])}</h3>",
                  picture(made, f"tree:{name}", "The light hierarchy of one building: patches of one colour are one node."),
                  picture(made, f"drawn:{name}", "Links of two buildings and the ground around them, between the centroids of "
-                         "their nodes; the widest exchange most."),
-                 picture(made, f"sweeps:{name}", "The picture after 0, 1, 2 and 3 sweeps, at one exposure."),
+                         "their nodes: the 400 of each kind that carry most."),
+                 picture(made, f"sweeps:{name}", "The picture and E_indirect after 0, 1, 2 and 3 sweeps, at one exposure."),
                  picture(made, f"convergence:{name}", "The paper's measure E_i, the residual, and the distance from the "
                          "solution, by sweep."),
                  table(["sweep", "E_i, W/m2", "residual", "distance from the solution, %"],
@@ -180,7 +206,7 @@ def write(output, data):
             f"{facts['load_average_at_start'][0]:.1f}; {escape(str(first.get('device', '')))}, "
             f"{escape(str(first.get('driver', '')))}{'; quick run' if data.get('quick') else ''}. Errors are deterministic; "
             "times are those of this machine and its load (medians where there are repeats): compare them within one "
-            "table only.</p>"]
+            "table only.</p>", summary(data["scenes"])]
     for name, scene in data["scenes"].items():
         text.append(scene_section(name, scene, made))
     if "prediction" in made:

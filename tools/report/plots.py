@@ -14,7 +14,7 @@ COLOURS = dict(zip((method.name for method in METHODS),
 PEERS = {"mitsuba": ("Mitsuba 3, llvm", "#c17d11", "s"), "rtrace": ("Radiance rtrace", "#b2182b", "^"),
          "own tracer": ("heliopolis-bake reference", "#3a9a5b", "D"),
          "daylight coefficients": ("Radiance daylight coefficients, precomputation", "#7b3294", "v")}
-plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "svg.hashsalt": "heliopolis",
+plt.rcParams.update({"font.size": 9, "errorbar.capsize": 2, "axes.grid": True, "grid.alpha": 0.3, "svg.hashsalt": "heliopolis",
                      "axes.spines.top": False, "axes.spines.right": False})
 
 
@@ -28,8 +28,10 @@ def save(figure, output, name):
     return name
 
 
-def plain_numbers(axis):
-    for part in (axis.xaxis, axis.yaxis):
+def plain_numbers(*parts):
+    """1, 2, 5, 10 ... on logarithmic axes of a plot."""
+    for part in parts:
+        part.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
         part.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         part.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
@@ -42,7 +44,7 @@ def rms_points(points, case, x):
             [[100 * (f["rms"] - f["rms_low"]) for _, f in rows], [100 * (f["rms_high"] - f["rms"]) for _, f in rows]])
 
 
-def error_curves(scene, name, output, x, label, prototype):
+def error_curves(scene, name, output, x, label, prototype, least=None):
     cases = [case for case in CASE_TITLES if case in scene["default"]["errors"]]
     figure, axes = plt.subplots(1, len(cases), figsize=(3.6 * len(cases), 4.4), sharey=True, squeeze=False)
     for axis, case in zip(axes[0], cases):
@@ -57,9 +59,10 @@ def error_curves(scene, name, output, x, label, prototype):
                       linewidth=1.2, label=title)
         axis.set_xscale("log")
         axis.set_yscale("log")
+        axis.set_xlim(left=least)
         axis.set_xlabel(label)
         axis.set_title(CASE_TITLES[case])
-        plain_numbers(axis)
+        plain_numbers(axis.xaxis, axis.yaxis)
     axes[0][0].set_ylabel("E_indirect, rms error, % of its mean")
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncols=4, fontsize=8, frameon=False)
@@ -87,7 +90,7 @@ def peer_plot(data, output):
     axis.set_yscale("log")
     axis.set_xlabel("seconds")
     axis.set_ylabel("E_indirect, rms error, % of its mean")
-    plain_numbers(axis)
+    plain_numbers(axis.xaxis, axis.yaxis)
     axis.legend(fontsize=8)
     figure.tight_layout()
     return save(figure, output, "peers")
@@ -96,7 +99,7 @@ def peer_plot(data, output):
 def switch_plot(scene, name, output):
     rows = scene["switches"]
     cases = [case for case in CASE_TITLES if case in rows[0]["errors"]]
-    figure, axis = plt.subplots(figsize=(8, 0.45 * len(rows) + 1.6))
+    figure, axis = plt.subplots(figsize=(9.5, 0.45 * len(rows) + 1.6))
     for case, marker in zip(cases, "osD^"):
         f = [row["errors"][case]["E_indirect"] for row in rows]
         axis.errorbar([100 * e["rms"] for e in f], range(len(rows)),
@@ -105,9 +108,9 @@ def switch_plot(scene, name, output):
     axis.set_yticks(range(len(rows)), [row["name"] for row in rows])
     axis.invert_yaxis()
     axis.set_xscale("log")
-    plain_numbers(axis)
+    plain_numbers(axis.xaxis)
     axis.set_xlabel("E_indirect, rms error, % of its mean")
-    axis.legend(fontsize=8)
+    axis.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1, 1))
     figure.tight_layout()
     return save(figure, output, name)
 
@@ -135,7 +138,7 @@ def scaling_plot(data, output):
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel("patches")
-        plain_numbers(axis)
+        plain_numbers(axis.xaxis, axis.yaxis)
     figure.tight_layout()
     return save(figure, output, "scaling")
 
@@ -163,7 +166,7 @@ def prediction_plot(scenes, output):
     axis.set_yscale("log")
     axis.set_xlabel("predicted error, %")
     axis.set_ylabel("measured rms of E_indirect, the worst light, %")
-    plain_numbers(axis)
+    plain_numbers(axis.xaxis, axis.yaxis)
     axis.legend(fontsize=8)
     figure.tight_layout()
     return save(figure, output, "prediction")
@@ -189,7 +192,7 @@ def draw_all(data, output):
         prototype = PROTOTYPE.get(name, {})
         if scene.get("default") and scene.get("curves"):
             made[f"links:{name}"] = error_curves(scene, f"error_links_{name}", output, lambda p: p["links_per_patch"],
-                                                 "links per patch", prototype)
+                                                 "links per patch", prototype, least=2.0)
             made[f"bake:{name}"] = error_curves(scene, f"error_bake_{name}", output, lambda p: p["bake_seconds"],
                                                 "bake, seconds", {})
         if scene.get("switches"):

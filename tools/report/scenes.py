@@ -111,27 +111,27 @@ def all_scenes(options, work, notes):
     if folder == own:
         notes.append("Suns B and C of S are left out: no --scenes FOLDER with S.suns.csv.")
     if options.quick:
-        scenes.append(made_scene(work, "dense", "Dense: 2 x 2 towers of 25 to 60 m, streets of 6 m", 256, blocks=2))
+        scenes.append(made_scene(work, "dense", "Dense: 2 x 2 towers of 25 to 60 m, streets of 6 m", 4096, blocks=2))
     else:
         if options.scenes and (options.scenes / "M.reference.csv").exists():
             scenes.append(given_scene(options.scenes, "M", "M: grid city of 64 buildings, streets of 20 m"))
         else:
             notes.append("M is left out: no --scenes FOLDER with M.obj, M.csv, M.json, M.reference.csv.")
-        scenes.append(made_scene(work, "dense", "Dense: 4 x 4 towers of 25 to 60 m, streets of 6 m", 1024, blocks=4))
-    samples, limit = (64, 10) if options.quick else (512, 100)
+        scenes.append(made_scene(work, "dense", "Dense: 4 x 4 towers of 25 to 60 m, streets of 6 m", 4096, blocks=4))
+    samples = 512 if options.quick else 2048
     prague = options.data and options.data / "prague_bubenec"
     if prague and (prague / "footprints.geojson").exists():
-        scenes.append(Scene("prague", "Prague, Bubeneč" + (f", the first {limit} buildings" if options.quick else ""),
+        scenes.append(Scene("prague", "Prague, Bubeneč" + (", a part of it" if options.quick else ""),
                             [prague / "footprints.geojson", "--streets", prague / "streets.geojson", "--height", 18,
                              "--lat", 50.1031, "--lon", 14.4038, "--north", -7.85,
-                             *(["--limit", limit] if options.quick else [])], samples=samples))
+                             *(["--bbox=-110,-38,-10,62"] if options.quick else [])], samples=samples))
     else:
         notes.append("Prague is left out: no --data FOLDER with prague_bubenec/footprints.geojson.")
     rotterdam = options.data and options.data / "rotterdam_delfshaven"
     if rotterdam and (rotterdam / "footprints.geojson").exists():
-        scenes.append(Scene("rotterdam", f"Rotterdam, Delfshaven, {limit} buildings",
-                            [rotterdam / "footprints.geojson", "--limit", limit, "--lat", 51.9071, "--lon", 4.4560,
-                             "--north", -0.7], samples=samples))
+        scenes.append(Scene("rotterdam", "Rotterdam, Delfshaven, a quarter of " + ("20" if options.quick else "100") + " buildings",
+                            [rotterdam / "footprints.geojson", "--lat", 51.9071, "--lon", 4.4560, "--north", -0.7,
+                             "--bbox=-155,-22,-75,58" if options.quick else "--bbox=-192,-59,-38,95"], samples=samples))
     else:
         notes.append("Rotterdam is left out: no --data FOLDER with rotterdam_delfshaven/footprints.geojson.")
     wanted = options.only.split(",") if options.only else [scene.name for scene in scenes]

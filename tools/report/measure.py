@@ -104,7 +104,7 @@ def walk(measure_at, start, growth):
 def curve(programs, scene, method, say, options, default):
     """Points of one method on one scene, from few links to many. default: the point of the default bake."""
     def measure_at(threshold):
-        arguments = [*method.arguments, *([] if threshold is None else ["--epsilon", f"{threshold:.4g}"])]
+        arguments = [*method.arguments, *([] if threshold is None else [method.option, f"{threshold:.4g}"])]
         try:
             made = point(programs, scene, arguments, say, bench_repeats=1 if method.name == BEST and scene.faces else 0)
         except Failed as failure:
@@ -128,7 +128,7 @@ def curves(programs, scene, say, options, notes, default):
     for method in METHODS:
         if (method.scenes and scene.name not in method.scenes) or (not scene.faces and options.quick):
             continue
-        lacking = programs.missing("heliopolis-bake", [*method.arguments, "--epsilon"])
+        lacking = programs.missing("heliopolis-bake", [*method.arguments, method.option])
         if lacking:
             note = f"Method \"{method.name}\" is left out: this build has no {' '.join(lacking)}."
             if note not in notes:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 class Method:
     name: str           # in legends and tables
     arguments: tuple    # of heliopolis-bake
-    values: tuple = ()  # of --epsilon, from few links to many; () = steps from the method's own default both ways
+    values: tuple = ()  # of the option, from few links to many; () = steps from the method's own default both ways
     scenes: tuple = ()  # only these; () = all
+    option: str = "--epsilon"
 
 
 BEST = "Heliopolis"
@@ -17,6 +18,9 @@ PAPER_FACTORS = (0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
 
 METHODS = (
     Method(BEST, ()),
+    Method("by --error", (), (0.16, 0.08, 0.04, 0.02, 0.01, 0.005), ("S", "M", "dense"), "--error"),
+    Method("receivers: patches alone", ("--receivers", "patches"), scenes=("S", "M", "dense")),
+    Method("patches not split", ("--split", "1"), scenes=("S", "M")),
     Method("constant senders", ("--senders", "constant"), scenes=("S", "M", "dense")),
     Method("free rectangle tree", ("--tree", "free"), scenes=("S", "M")),
     Method("quadtree (HSA91)", ("--tree", "faces", "--senders", "constant"), scenes=("S", "M", "dense")),
@@ -40,7 +44,8 @@ SWITCHES = (
     Switch("visibility: 64 rays a link", bake=("--link-rays", "64")),
     Switch("form factors and far field: threshold / 8", finer=0.125),
     Switch("both of them", bake=("--link-rays", "64"), finer=0.125),
-    Switch("patch size: a quarter of the error", bake=("--error", "0.005")),
+    Switch("patch size and threshold: a quarter of the error", bake=("--error", "0.005")),
+    Switch("patch size, threshold and visibility", bake=("--error", "0.005", "--link-rays", "64")),
     Switch("sky view: 8192 rays a patch", bake=("--rays", "8192")),
     Switch("sun raster: texels of 0.02 m", render=("--sun-texel", "0.02")),
     Switch("sun and sky by rays (--first-light)", render=("--first-light", "@")),

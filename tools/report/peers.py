@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mitsuba, Radiance and our own path tracer on the faces of one scene under one sun, beside a bake and its relighting: all in
 one run on one machine, so that their ratios mean something."""
+import math
 import re
 import time
+
+import numpy as np
 
 import measure as measuring
 from analysis import median, paid_after, sampling_time_at
@@ -26,7 +29,6 @@ def judged(scene, reference, sun, indirect):
 
 
 def run_mitsuba(programs, scene, pack, rectangles, reference, to_sun, counts, say):
-    import numpy as np
     folder = programs.work / "mitsuba"
     folder.mkdir(exist_ok=True)
     programs.run("heliopolis-bake", ["export", pack, *light_arguments(CASE), "--points", 1, "--mitsuba",
@@ -121,35 +123,36 @@ def compare(ours, peers):
     return table
 
 
-def measure(programs, scenes, options, data, say):
-    scene = next((s for s in scenes if s.name == ("S" if options.quick else "M")), None) or scenes[0]
-    if not scene.given:
-        raise ValueError("the peers need scene M, or S with --quick")
-    say(f"{scene.title}: other programs on the same faces")
+def run_all(programs, scene, to_sun, say):
+    """Every peer on the scene's faces. One patch a face and no links to speak of: the others get the scene as it is."""
     reference = scene.reference(programs, None, CASE)
-    ours = measuring.point(programs, scene, [], say, bench_repeats=7)
-    ours["relight_seconds"] = ours["bench"]["ms"]["sun change, cold"]["real_time"]["median"] / 1e3
-    # One patch a face and no links to speak of: the others get the scene as it is.
-    plain = programs.work / "plain.pack"
+    plain, rectangles = programs.work / "plain.pack", read_rectangles(scene.inputs[0])
     programs.bake(plain, scene.inputs, ["--method", "paper", "--epsilon", 1, "--cutoff", 1])
-    rectangles = read_rectangles(scene.inputs[0])
-    import math
-    azimuth, elevation, dni, _ = CASES[CASE]
-    a, e = math.radians(azimuth), math.radians(elevation)
-    to_sun = (math.sin(a) * math.cos(e), math.cos(a) * math.cos(e), math.sin(e))
     peers = {}
     try:
-        peers["mitsuba"] = run_mitsuba(programs, scene, plain, rectangles, reference, to_sun,
-                                       (16, 64, 256, 1024), say)
+        peers["mitsuba"] = run_mitsuba(programs, scene, plain, rectangles, reference, to_sun, (16, 64, 256, 1024), say)
     except (Failed, ImportError, RuntimeError) as failure:
         say(f"  Mitsuba is left out: {failure}")
         peers["mitsuba"] = {"rows": [], "failure": str(failure)}
     folder = programs.work / "radiance"
     programs.run("heliopolis-bake", ["export", plain, *light_arguments(CASE), "--points", 1, "--radiance", folder])
-    peer = RadiancePeer(programs, folder, rectangles, to_sun, dni)
+    peer = RadiancePeer(programs, folder, rectangles, to_sun, CASES[CASE][2])
     peers["rtrace"] = run_radiance(peer, scene, reference, ((1, 64), (1, 256), (2, 256)), say)
     peers["daylight coefficients"] = run_coefficients(peer, scene, reference, (4, 8), say)
     peers["own tracer"] = run_own_tracer(programs, scene, plain, reference, (16, 64, 256, 1024), say)
+    return peers
+
+
+def measure(programs, scenes, options, data, say):
+    scene = next((s for s in scenes if s.name == ("S" if options.quick else "M")), None) or scenes[0]
+    if not scene.given:
+        raise ValueError("the peers need scene M, or S with --quick")
+    say(f"{scene.title}: other programs on the same faces")
+    ours = measuring.point(programs, scene, [], say, bench_repeats=7)
+    ours["relight_seconds"] = ours["bench"]["ms"]["sun change, cold"]["real_time"]["median"] / 1e3
+    azimuth, elevation = (math.radians(angle) for angle in CASES[CASE][:2])
+    to_sun = (math.sin(azimuth) * math.cos(elevation), math.cos(azimuth) * math.cos(elevation), math.sin(elevation))
+    peers = run_all(programs, scene, to_sun, say)
     # Ours once more: how much the machine changed in between.
     again = programs.bench(programs.work / f"{scene.name}.pack", 7)
     ours["relight_seconds_after"] = again["ms"]["sun change, cold"]["real_time"]["median"] / 1e3

@@ -10,7 +10,8 @@ from methods import BEST, METHODS  # noqa: E402
 
 CASE_TITLES = {"A": "sun 150/40", "B": "sun 235/18", "C": "sun 100/62", "sky": "uniform sky"}
 COLOURS = dict(zip((method.name for method in METHODS),
-                   ("#1f4e9c", "#4fa3d1", "#3a9a5b", "#c17d11", "#b2182b", "#d6604d", "#7f7f7f")))
+                   ("#1f4e9c", "#17a2b8", "#6a51a3", "#9ecae1", "#4fa3d1", "#3a9a5b", "#c17d11", "#b2182b", "#d6604d",
+                    "#7f7f7f")))
 PEERS = {"mitsuba": ("Mitsuba 3, llvm", "#c17d11", "s"), "rtrace": ("Radiance rtrace", "#b2182b", "^"),
          "own tracer": ("heliopolis-bake reference", "#3a9a5b", "D"),
          "daylight coefficients": ("Radiance daylight coefficients, precomputation", "#7b3294", "v")}

@@ -45,7 +45,7 @@ def measure_scene(programs, scene, parts, options, report, notes, say):
         entry["default"] = measure.point(programs, scene, [], say, bench_repeats=3 if options.quick else 5)
         entry["curves"] = measure.curves(programs, scene, say, options, notes, entry["default"])
         report.save(programs)
-    if "switches" in parts and (not options.quick or scene.name == "S"):
+    if "switches" in parts and (not options.quick or options.only or scene.name == "S"):
         threshold = (entry.get("default") or measure.point(programs, scene, [], say))["threshold"]
         entry["switches"] = measure.switches(programs, scene, threshold, say, notes)
         entry["reference_seconds"] = scene.cost

@@ -6,6 +6,7 @@ import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import analysis  # noqa: E402
@@ -83,6 +84,7 @@ class DenseCity(unittest.TestCase):
         for face, row in zip(scene.corners, scene.rows):
             if row[0] in ("wall", "window"):
                 n, centre = vector_area(face), [0.25 * sum(p[a] for p in face) for a in range(2)]
+                self.assertTrue(all(6 - 1e-9 <= p[a] <= 26 + 1e-9 for p in face for a in range(2)))
                 self.assertGreater(n[0] * (centre[0] - 16.0) + n[1] * (centre[1] - 16.0), 0)
 
     def test_files(self):

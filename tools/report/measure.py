@@ -119,7 +119,8 @@ def curve(programs, scene, method, say, options, default):
     start = default if not method.arguments else measure_at(None)
     if start is None:
         return []
-    return walk(measure_at, start, 2.5 if options.quick or not scene.faces else 1.5) if start["threshold"] else [start]
+    growth = 2.5 if options.quick or not scene.faces else 1.5 if method.name == BEST else 2.0
+    return walk(measure_at, start, growth) if start["threshold"] else [start]
 
 
 def curves(programs, scene, say, options, notes, default):

@@ -20,7 +20,7 @@ METHODS = (
     Method(BEST, ()),
     Method("by --error", (), (0.16, 0.08, 0.04, 0.02, 0.01, 0.005), ("S", "M", "dense"), "--error"),
     Method("receivers: patches alone", ("--receivers", "patches"), scenes=("S", "M", "dense")),
-    Method("patches not split", ("--split", "1"), scenes=("S", "M")),
+    Method("patches not split", ("--split", "1"), scenes=("S",)),
     Method("constant senders", ("--senders", "constant"), scenes=("S", "M", "dense")),
     Method("free rectangle tree", ("--tree", "free"), scenes=("S", "M")),
     Method("quadtree (HSA91)", ("--tree", "faces", "--senders", "constant"), scenes=("S", "M", "dense")),

@@ -43,7 +43,8 @@ def own_direct_light(programs, scene, pack, case, cache):
     key = (Pack(pack).geometry_key(), case)
     if key not in cache:
         table = programs.work / f"{scene.name}.direct-{len(cache)}.csv"
-        programs.run("heliopolis-bake", ["reference", pack, *light_arguments(case), "--spp", 1024, "-o", table])
+        programs.run("heliopolis-bake", ["reference", pack, *light_arguments(case), "--spp", 4096 if scene.faces else 1024,
+                                         "-o", table])
         cache[key] = table
     return cache[key]
 

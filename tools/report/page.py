@@ -152,8 +152,9 @@ def peers_section(data, made):
             what = ", ".join(f"{row[key]} {word}" for key, word in (("paths", "paths"), ("points", "points"), ("ad", "-ad"),
                                                                    ("rays", "rays")) if key in row)
             rows.append([title, what, f"{row['seconds']:.2f}", f"{row.get('processor_seconds', 0):.2f}", percent(f["rms"]),
-                         percent(f["bias"], 2, True), percent(f["p95"]), percent(f["max"], 0)])
-    text.append(table(["program", "a face", "seconds", "processor, s", "rms, %", "bias, %", "P95, %", "max, %"], rows))
+                         percent(f["bias"], 2, True), percent(f["p95"]), percent(f["max"], 0), percent(row.get("stated_noise"))])
+    text.append(table(["program", "a face", "seconds", "processor, s", "rms, %", "bias, %", "P95, %", "max, %",
+                       "standard error that it states, %"], rows))
     rows = [[row["peer"], percent(row["error"]), f"{row['seconds']:.2f}", percent(row["measured"]),
              f"{row['ratio']:.0f} x relighting" if "ratio" in row else f"{row['ratio_of_bake']:.2f} x bake",
              "never" if row["paid_after"] is None else row["paid_after"]] for row in data["at_equal_error"]]

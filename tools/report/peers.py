@@ -80,6 +80,14 @@ def run_coefficients(peer, scene, reference, sides, say):
     return {"rows": rows}
 
 
+def stated_noise(light, reference):
+    """rms of the standard errors that a table states for E_indirect, as a fraction of the mean: what its distance from the
+    reference should be."""
+    value, area = reference.value["E_indirect"], reference.area
+    mean = (area[:, None] * value).sum(axis=0) / area.sum()
+    return float((np.sqrt((area[:, None] * light.error["E_indirect"] ** 2).sum(axis=0) / area.sum()) / mean).mean())
+
+
 def run_own_tracer(programs, scene, pack, reference, counts, say):
     face = Pack(pack).patches()["face"]
     rows = []
@@ -91,6 +99,7 @@ def run_own_tracer(programs, scene, pack, reference, counts, say):
         found = re.search(r"rays in ([\d.]+) s", entry["text"])
         rows.append({"paths": count, "seconds": float(found[1]) if found else entry["seconds"],
                      "processor_seconds": entry["processor_seconds"],
+                     "stated_noise": stated_noise(light, reference),
                      "errors": {q: judge(light, reference, q) for q in ("E_sun", "E_indirect")}})
         say(f"  heliopolis-bake reference, {count} paths a face: {rows[-1]['seconds']:.2f} s, "
             f"E_indirect rms {100 * rows[-1]['errors']['E_indirect']['rms']:.2f} %")

@@ -117,7 +117,7 @@ def all_scenes(options, work, notes):
             scenes.append(given_scene(options.scenes, "M", "M: grid city of 64 buildings, streets of 20 m"))
         else:
             notes.append("M is left out: no --scenes FOLDER with M.obj, M.csv, M.json, M.reference.csv.")
-        scenes.append(made_scene(work, "dense", "Dense: 4 x 4 towers of 25 to 60 m, streets of 6 m", 4096, blocks=4))
+        scenes.append(made_scene(work, "dense", "Dense: 4 x 4 towers of 25 to 60 m, streets of 6 m", 8192, blocks=4))
     samples = 512 if options.quick else 1024
     prague = options.data and options.data / "prague_bubenec"
     if prague and (prague / "footprints.geojson").exists():

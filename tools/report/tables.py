@@ -25,9 +25,11 @@ class Light:
         self.area = area
         self.value = {q: np.zeros((len(area), 3)) for q in QUANTITIES}
         self.error = {q: np.zeros((len(area), 3)) for q in QUANTITIES}
+        self.sum_error = None   # of the sum, where it is known: a path that meets the sky meets no wall, so errors offset
 
     def total(self):
-        return sum(self.value.values()), np.sqrt(sum(e ** 2 for e in self.error.values()))
+        independent = np.sqrt(sum(e ** 2 for e in self.error.values()))
+        return sum(self.value.values()), independent if self.sum_error is None else self.sum_error
 
     def get(self, quantity):
         return self.total() if quantity == "E_total" else (self.value[quantity], self.error[quantity])
@@ -37,17 +39,24 @@ class Light:
         for q in QUANTITIES:
             result.value[q] = self.value[q] + other.value[q]
             result.error[q] = np.hypot(self.error[q], other.error[q])
+        result.sum_error = np.hypot(self.total()[1], other.total()[1])
         return result
 
     def by_face(self, face, count):
         """Area means over the faces that the patches come from."""
         area = np.bincount(face, self.area, count)
+
+        def mean(values):
+            return np.stack([np.bincount(face, self.area * v, count) / area for v in values.T], axis=1)
+
+        def mean_error(errors):
+            return np.stack([np.sqrt(np.bincount(face, (self.area * e) ** 2, count)) / area for e in errors.T], axis=1)
+
         result = Light(area)
         for q in QUANTITIES:
-            for c in range(3):
-                result.value[q][:, c] = np.bincount(face, self.area * self.value[q][:, c], count) / area
-                squares = np.bincount(face, (self.area * self.error[q][:, c]) ** 2, count)
-                result.error[q][:, c] = np.sqrt(squares) / area
+            result.value[q], result.error[q] = mean(self.value[q]), mean_error(self.error[q])
+        if self.sum_error is not None:
+            result.sum_error = mean_error(self.sum_error)
         return result
 
 
@@ -59,13 +68,9 @@ def read_light(path):
         light.value[q] = np.stack([columns[f"{q}_{c}"] for c in COLOURS], axis=1)
         if f"{q}_se_r" in columns:
             light.error[q] = np.stack([columns[f"{q}_se_{c}"] for c in COLOURS], axis=1)
+    if "E_total_se_r" in columns:
+        light.sum_error = np.stack([columns[f"E_total_se_{c}"] for c in COLOURS], axis=1)
     return light
-
-
-def radiosity(path):
-    """Area and broadband radiosity of a table's rows."""
-    columns = read_csv(path)
-    return columns["area"], columns["B_solar"]
 
 
 def judge(result, reference, quantity):

@@ -97,7 +97,7 @@ def tree_figure(leaves, building):
         keys = np.array([chain[min(level, len(chain) - 1)] for chain in chains])
         draw_patches(axis, leaves, View(), chosen, shuffled_colours(keys))
         counts.append({"level": level, "nodes": len(np.unique(keys))})
-        axis.set_title(f"level {level}: {counts[-1]['nodes']} nodes", fontsize=9)
+        axis.set_title(f"level {level}, nodes: {counts[-1]['nodes']}", fontsize=9)
     figure.tight_layout()
     return figure, counts
 

@@ -4,7 +4,7 @@ import math
 import re
 
 from methods import BEST, METHODS, SWITCHES
-from pack_file import Pack
+from pack_file import NONE, Pack
 from programs import Failed
 from scenes import light_arguments
 from tables import read_light, judge
@@ -63,8 +63,26 @@ def errors_of(programs, scene, pack, arguments=(), direct=None):
         errors[case] = {quantity: f for quantity, f in figures.items() if f}
     if "A" in light and "sky" in light:
         both = scene.reference(programs, pack, "A").plus(scene.reference(programs, pack, "sky"))
+        if not scene.faces:
+            errors["worst"] = worst_patches(pack, light["A"], scene.reference(programs, pack, "A"))
         errors["A+sky"] = {q: judge(light["A"].plus(light["sky"]), both, q) for q in ("E_indirect", "E_total")}
     return errors, solves
+
+
+def worst_patches(pack, result, reference, count=12):
+    """The patches of a city that hold most of the squared error of E_indirect: where to look."""
+    tile = Pack(pack)
+    patches, (_, infos, _), rows = tile.patches(), tile.nodes(), tile.links()[0]
+    value, (truth, error) = result.value["E_indirect"], reference.get("E_indirect")
+    excess = reference.area * ((value - truth).mean(axis=1) ** 2 - error.mean(axis=1) ** 2)
+    order = (-excess).argsort()
+    return {"share_of_100": float(excess[order[:100]].sum() / excess.sum()),
+            "patches": [{"patch": int(i), "share": float(excess[i] / excess.sum()), "area": float(reference.area[i]),
+                         "building": -1 if patches["building"][i] == NONE else int(patches["building"][i]),
+                         "normal": [round(float(x), 3) for x in patches["normal"][i]],
+                         "centroid": [round(float(x), 2) for x in infos["centroid"][i]], "links": int(rows[i + 1] - rows[i]),
+                         "here": float(value[i].mean()), "reference": float(truth[i].mean()),
+                         "reference_se": float(error[i].mean())} for i in order[:count]]}
 
 
 def point(programs, scene, arguments, say, bench_repeats=0, render=(), direct=None):
@@ -73,6 +91,8 @@ def point(programs, scene, arguments, say, bench_repeats=0, render=(), direct=No
     stats = programs.bake(pack, scene.inputs, arguments)
     result = cost_of(pack, stats)
     result["errors"], result["solves"] = errors_of(programs, scene, pack, render, direct)
+    if "worst" in result["errors"]:
+        result["worst"] = result["errors"].pop("worst")
     if bench_repeats:
         result["bench"] = programs.bench(pack, bench_repeats)
     shown = ", ".join(f"{case} {100 * e['E_indirect']['rms']:.2f}" for case, e in result["errors"].items()

@@ -108,6 +108,16 @@ def scene_section(name, scene, made):
                     + ("" if point.get("patches_per_face") else " The sun raster sees the assets (cornices, dormers, balconies), "
                        "the path tracer the patches alone: part of the error of E_sun, and what follows from it in "
                        "E_indirect, is that difference; the last table tells them apart.") + "</p>")
+    if scene.get("default", {}).get("worst"):
+        worst = scene["default"]["worst"]
+        text.append(f"<details><summary>Where it is worst under sun 150/40: 100 patches hold {100 * worst['share_of_100']:.0f} % "
+                    "of the squared error</summary>" +
+                    table(["patch", "share, %", "area, m2", "building", "normal", "centroid", "links", "here, W/m2",
+                           "reference, W/m2", "+-"],
+                          [[w["patch"], percent(w["share"], 1), f"{w['area']:.2f}", w["building"],
+                            " ".join(f"{x:g}" for x in w["normal"]), " ".join(f"{x:g}" for x in w["centroid"]), w["links"],
+                            f"{w['here']:.1f}", f"{w['reference']:.1f}", f"{w['reference_se']:.1f}"]
+                           for w in worst["patches"]]) + "</details>")
     text.append(picture(made, f"links:{name}", "Error of E_indirect against links per patch; bars: one standard error of "
                         "what the reference's noise does to the rms."))
     text.append(picture(made, f"bake:{name}", "The same against the seconds of the bake."))

@@ -30,7 +30,7 @@ struct LightOptions
     /// or the paper's default.
     double formFactorEpsilon = 0.0;
     /// Heliopolis: largest number of patches after splitting / before; 1 = none is split, however wrong.
-    double splitGrowth = 4.0;
+    double splitGrowth = 3.0;
     /// Heliopolis: a link sees its sender's mean radiosity alone (the paper's way), not its slope too.
     bool constantSenders = false;
     bool leafReceivers = false; ///< Heliopolis: links end at patches alone (rows without push-down)

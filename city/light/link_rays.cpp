@@ -14,6 +14,7 @@
 namespace helio {
 namespace {
 
+constexpr u32 kEnoughRays = 512;    // of one pair, however strong its link
 constexpr double kNearFactor = 0.1; // form factor from which on rays are aimed by the cosine
 
 /// Even-odd test in the coordinate plane that the polygon's plane is nearest to.
@@ -151,14 +152,14 @@ double LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double stren
     const bool near = transfer > kNearFactor * tree_.nodes[small].area;
     Tally tally;
     for (u32 asked = 0;;) {
-        const u32 batch = std::min(std::max(asked, rays), kMostRays - asked); // doubles the number
+        const u32 batch = std::min(std::max(asked, rays), kMostRays); // doubles the number, as far as one batch holds
         if (near)
             shootNear(tally, small, large, shift, batch);
         else
             shootFar(tally, a, b, shift, batch);
         asked += batch;
         const double open = tally.weight > 0.0 ? tally.open / tally.weight : 1.0, n = double(tally.rays) + 2.0;
-        if (asked >= kMostRays || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= 1.0) return open;
+        if (asked >= kEnoughRays || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= 1.0) return open;
     }
 }
 

@@ -20,7 +20,7 @@ public:
 
     /// Visible share of the exchange of two whole nodes, `transfer` m2 without occlusion. Far ones: points of both,
     /// weighted with cos cos / r^2; near ones (form factor above 0.1): directions by the cosine from the smaller node.
-    /// Begins with `rays` rays and doubles them, up to kMostRays, while strength x (variance of the mean) is above 1.
+    /// Begins with `rays` rays and takes more, up to 512, while strength x (variance of the mean) is above 1.
     double openShare(u32 a, u32 b, double transfer, u32 rays, double strength) const;
 
 private:

@@ -86,6 +86,7 @@ LinkTable linkTable(const NodeTree& tree, std::span<const NodeLink> links, u32 j
     constexpr size_t kMostLinks = kNoIndex - 1;
     HELIO_CHECK(links.size() <= kMostLinks, "the bake makes ", links.size(), " links, the limit is ", kMostLinks,
                 " (rows are counted in 32 bits); bake with a larger form factor epsilon or a smaller area");
+    if (links.empty()) slopes.clear(); // no link, no sender to be linear
     LinkTable table;
     table.rowBegin.assign(tree.nodeCount() + 1, 0);
     for (const NodeLink& link : links) ++table.rowBegin[link.receiver + 1];

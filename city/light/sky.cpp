@@ -15,7 +15,8 @@
 namespace helio {
 namespace {
 
-constexpr u32 kChunk = 256; // patches
+constexpr u32 kChunk = 256;         // patches
+constexpr u32 kRaysOfPlane = 1024;  // that a plane shoots at least, as long as `rays` a patch leave it fewer
 
 void sortUnique(std::vector<std::pair<u32, u32>>& pairs)
 {
@@ -97,6 +98,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
     const bool plain = farGround != glm::dvec4(0.0);
     const u32 count = tree.patchCount();
     const std::vector<u32> root = planarRoots(tree);
+    std::vector<u32> patchesOf(tree.nodeCount(), 0);
+    for (u32 patch = 0; patch < count; ++patch) ++patchesOf[root[patch]];
     SkyScan scan;
     for (std::vector<float>* column : {&scan.sky, &scan.below, &scan.rowSum, &scan.back}) column->resize(count);
     std::vector<std::vector<std::pair<u32, u32>>> pairsOf((count + kChunk - 1) / kChunk);
@@ -109,8 +112,11 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         SkyRows& rows = rowsOf[begin / kChunk];
         std::vector<u32> seen, cells;
         std::vector<CellRays> inCell(dome.cellCount() + 1); // the last: the plain beyond
-        const float share = 1.0f / float(rays);
         for (u32 patch = begin; patch < end; ++patch) {
+            // Planes of few patches need more rays to meet all that they see.
+            u32 own = rays;
+            while (own < kRaysOfPlane && own * patchesOf[root[patch]] < kRaysOfPlane) own *= 2;
+            const float share = 1.0f / float(own);
             if (tree.patches[patch].covered) {
                 endRow(rows, inCell, cells, share);
                 continue;
@@ -119,7 +125,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
             const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed, 0x5ca7), patch));
             u32 sky = 0, below = 0, front = 0, back = 0;
             seen.clear();
-            for (u32 k = 0; k < rays; ++k) {
+            for (u32 k = 0; k < own; ++k) {
                 const std::array<double, 4> x = shiftedSobol4(k, shift);
                 const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
                 const glm::dvec3 direction =

@@ -28,7 +28,8 @@ std::vector<u32> planarRoots(const NodeTree& tree);
 /// Number of cells of the sky's dome that a bake takes for 0: 48, and 24 beyond 200,000 patches (city/sky/README.md).
 u32 autoSkyPatches(u32 patchCount);
 
-/// Covered patches have no rays: all their fractions are 0 and no pair comes of them. Traces `rays` per patch,
+/// Covered patches have no rays: all their fractions are 0 and no pair comes of them. Traces `rays` per patch (more where the plane of the patch would
+/// shoot less than 1024),
 /// stratified together over its area and over the hemisphere (Sobol points, shifted by a hash of the seed and the patch
 /// id). Rays that leave above the horizon are counted by the dome's cells, with their mean place in them. Where
 /// `farGround`, the reflectance of an endless plain beyond the scene, is not 0, those that leave below it are links

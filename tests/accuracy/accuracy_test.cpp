@@ -117,10 +117,10 @@ void judgeSunAndSky(const Case& c, bool emitters,
             return total;
         },
         se, keep);
-    EXPECT_LE(sun.rms, 0.02);
-    EXPECT_LE(sky.rms, 0.03);
-    EXPECT_LE(indirect.rms, 0.08);
-    EXPECT_LE(std::abs(indirect.bias), 0.02);
+    EXPECT_LE(sun.rms, 0.01);
+    EXPECT_LE(sky.rms, 0.02);
+    EXPECT_LE(indirect.rms, 0.015);
+    EXPECT_LE(std::abs(indirect.bias), 0.003);
 }
 
 } // namespace

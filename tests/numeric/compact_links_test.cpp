@@ -90,7 +90,7 @@ protected:
         tree_ = buildNodes(*shapes, {}).tree;
         const Visibility visibility(tree_);
         const u32 n = tree_.patchCount();
-        bake_ = bakeLight(tree_, {});
+        bake_ = bakeLight(tree_, {.formFactorEpsilon = 5e-4});
         for (const auto& [azimuth, elevation] : {std::pair(150.0, 40.0), {235.0, 18.0}, {100.0, 62.0}}) {
             const glm::dvec3 toSun = sunDirection(azimuth * kDegree, elevation * kDegree);
             lights_.emplace_back(n);
@@ -147,16 +147,20 @@ protected:
 
 TEST_F(CompactLinksError, ConstantSenders)
 {
-    expectSmall("constant senders", bake_.links, 3.0);
+    LinkTable links = bake_.links;
+    links.moment.clear();
+    links.childSlopes.clear();
+    expectSmall("constant senders", links, 3.5);
 }
 
 TEST_F(CompactLinksError, LinearSenders)
 {
     LinkTable links = bake_.links;
+    expectSmall("linear senders as baked", links, 5.0);
     addMoments(tree_, links, 1); // As far from the mean as can be: the largest codes.
-    expectSmall("linear senders, moments of single patches", links, 4.0);
+    expectSmall("linear senders, moments of single patches", links, 5.0);
     addMoments(tree_, links, 5);
-    expectSmall("linear senders, moments between patches", links, 4.0);
+    expectSmall("linear senders, moments between patches", links, 5.0);
 }
 
 TEST_F(CompactLinksError, FewLinksARow)
@@ -166,7 +170,7 @@ TEST_F(CompactLinksError, FewLinksARow)
     LinkTable links = bakeLight(tree_, coarse).links;
     EXPECT_LT(double(links.column.size()), 12.0 * tree_.patchCount());
     addMoments(tree_, links, 3);
-    expectSmall("linear senders, few links", links, 5.0);
+    expectSmall("linear senders, few links", links, 6.0);
 }
 
 } // namespace

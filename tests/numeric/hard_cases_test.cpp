@@ -43,7 +43,7 @@ void expectAllOfTheSun(const LitScene& scene, const Daylight& light)
 }
 
 /// The first `count` patches of two scenes have the same light: sun and sky to the last ray, what comes from patches
-/// within 2 % of its mean for each and 0.3 % in the mean.
+/// within 5 % of its mean for each (their links rest on other rays) and 0.3 % in the mean.
 void expectSameLight(const LitScene& a, const LitScene& b, u32 count, double rays)
 {
     const auto among = [&](u32 i) { return i < count; };
@@ -59,7 +59,7 @@ void expectSameLight(const LitScene& a, const LitScene& b, u32 count, double ray
                 100 * each, 100 * mean);
     EXPECT_LE(sun, 800.0 * rays / 256.0 + 1e-9);
     EXPECT_LE(sky, 120.0 * rays / 1024.0 + 1e-4);
-    EXPECT_LT(each, 0.03);
+    EXPECT_LT(each, 0.05);
     EXPECT_LT(std::abs(mean), 3e-3);
 }
 

@@ -110,10 +110,10 @@ TEST(Links, ExchangeIsReciprocalAndRowsDoNotExceedOne)
         for (u32 k = bake.links.rowBegin[i]; k < bake.links.rowBegin[i + 1]; ++k)
             exchange[{root[i], root[bake.links.column[k]]}] += tree.nodes[i].area * double(bake.links.factor[k]);
     for (const auto& [pair, there] : exchange) {
-        // Each of the few links between them may err by the epsilon of the bake, 0.0012 of the mean radiosity.
+        // A handful of links each way, whose visible shares are told by some hundred rays each.
         const double back = exchange[std::pair(pair.second, pair.first)],
                      smaller = std::min(tree.nodes[pair.first].area, tree.nodes[pair.second].area);
-        EXPECT_NEAR(there, back, 0.02 * back + 3.0 * bake.stats.formFactorEpsilon * smaller) << pair.first << " " << pair.second;
+        EXPECT_NEAR(there, back, 0.06 * back + 1e-4 * smaller) << pair.first << " " << pair.second;
     }
     for (const double sum : patchRowSums(tree, bake.links)) EXPECT_LE(sum, 1.03);
     EXPECT_NEAR(bake.stats.closure.mean, 1.0, 2e-3);

@@ -33,7 +33,7 @@ LitScene lightScene(NodeTree tree, const Daylight& daylight)
 {
     LitScene scene;
     scene.tree = std::move(tree);
-    scene.bake = bakeLight(scene.tree, {});
+    scene.bake = bakeLight(scene.tree, {.error = 0.005});
     const u32 n = scene.tree.patchCount();
     const Visibility visibility(scene.tree);
     scene.sun = raySun(scene.tree, visibility, daylight.toSun, 256);

@@ -185,7 +185,7 @@ TEST_F(BakeCli, ScenesComeBackFromExport)
 {
     ASSERT_EQ(bake(kScene + ".obj --surfaces " + kScene + ".csv --rays 16 -o first").exitCode, 0);
     ASSERT_EQ(bake("export first --surfaces again").exitCode, 0);
-    const RunResult second = bake("again.obj --surfaces again.csv --rays 16 -o second");
+    const RunResult second = bake("again.obj --surfaces again.csv --rays 16 --split 1 -o second");
     ASSERT_EQ(second.exitCode, 0) << second.err;
     const Result<Pack> first = Pack::open(temp_ / "first"), back = Pack::open(temp_ / "second");
     ASSERT_TRUE(first.ok() && back.ok());
@@ -206,7 +206,7 @@ TEST_F(BakeCli, CitiesComeBackFromExport)
     const RunResult baked = bake("town.geojson --rays 16 -o first");
     ASSERT_EQ(baked.exitCode, 0) << baked.err;
     ASSERT_EQ(bake("export first --surfaces again").exitCode, 0);
-    const RunResult second = bake("again.obj --surfaces again.csv --rays 16 -o second");
+    const RunResult second = bake("again.obj --surfaces again.csv --rays 16 --split 1 -o second");
     ASSERT_EQ(second.exitCode, 0) << second.err;
     const Result<Pack> first = Pack::open(temp_ / "first"), back = Pack::open(temp_ / "second");
     ASSERT_TRUE(first.ok() && back.ok());

@@ -19,8 +19,8 @@ namespace helio {
 namespace {
 
 // What an error of E_indirect is made of, on scenes S and M at their default: README.md has the curves.
-constexpr double kEpsilonOfError = 0.06;    // of one link
-constexpr double kUnresolvedOfError = 0.53; // of the light inside patches
+constexpr double kEpsilonOfError = 0.06;      // of one link
+constexpr double kUnresolvedOfError = 0.53;   // of the light inside patches
 constexpr double kDefaultPaperEpsilon = 0.02; // form factor
 constexpr u32 kTrainingSuns = 20;
 
@@ -28,7 +28,7 @@ constexpr u32 kTrainingSuns = 20;
 u32 chooseRays(double error, u32 patchCount)
 {
     const double wanted = 256.0 * std::max(1.0, 0.02 / error) * (patchCount <= 10'000 ? 4.0 : 1.0);
-    return std::bit_floor(u32(std::clamp(wanted, 128.0, 1024.0)));
+    return std::bit_floor(u32(std::min(wanted, 1024.0)));
 }
 
 void checkTree(const NodeTree& tree)
@@ -124,8 +124,8 @@ private:
 LightBake bakeLight(NodeTreeBuild& build, std::span<const AssetSummary> assets, const LightOptions& options)
 {
     checkTree(build.tree);
-    HELIO_CHECK(options.error > 0.0 && options.splitGrowth >= 1.0, "error = ", options.error, ", growth = ",
-                options.splitGrowth);
+    HELIO_CHECK(options.error > 0.0 && options.splitGrowth >= 1.0, "error = ", options.error,
+                ", growth = ", options.splitGrowth);
     if (options.method != LinkMethod::Heliopolis || options.splitGrowth <= 1.0) return bakeLight(build.tree, options);
     LightStats split;
     split.wholePatchCount = build.tree.patchCount();

@@ -18,27 +18,29 @@ enum class LinkMethod : u8
     PaperLiteral ///< as printed: centre distance, the wrong node is refined, pairs that refine a leaf are lost
 };
 
-/// What bakeLight does; every zero means "choose".
+/// What bakeLight does; a zero epsilon, number of rays, of sky patches or of jobs means "choose".
 struct LightOptions
 {
     LinkMethod method = LinkMethod::Heliopolis;
     /// Heliopolis: the error of E_indirect to aim at, rms over the mean, on any sun: chooses how far patches are split,
-    /// the links' epsilon and the rays. 0.005 .. 0.2; every halving costs two to three times the links.
+    /// the links' epsilon and the rays. > 0; every halving costs about 1.5 times the links.
     double error = 0.02;
     /// Heliopolis: the irradiance error that one link may leave in a patch of mean size, as a fraction of the scene's
-    /// mean radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = by `error`,
-    /// or the paper's default.
+    /// mean radiosity. Paper methods: the largest form factor of a link. Smaller = more links, more time. 0 = by
+    /// `error`, or the paper's default.
     double formFactorEpsilon = 0.0;
     /// Heliopolis: largest number of patches after splitting / before; 1 = none is split, however wrong.
     double splitGrowth = 3.0;
     /// Heliopolis: a link sees its sender's mean radiosity alone (the paper's way), not its slope too.
     bool constantSenders = false;
     bool leafReceivers = false; ///< Heliopolis: links end at patches alone (rows without push-down)
-    u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = by `error` and the number of patches, 128 to 1024
+    u32 raysPerPatch = 0; ///< sky rays of a patch; 0 = by `error` and the number of patches, 256 to 1024; planes of few
+                          ///< patches shoot more (scanSky)
     u32 skyPatches = 1;   ///< cells of the sky's dome; 1 = for uniform skies only, 0 = autoSkyPatches
     /// Reflectance of an endless plain beyond the scene, a last sky patch; 0 = the scene ends in the void.
     glm::dvec4 farGround{0.0};
-    u32 raysPerLink = 0;  ///< visibility rays of a pair of parts where a link is seen in part (it has up to 64 such); 0 = 2
+    u32 raysPerLink =
+        0; ///< visibility rays of a pair of parts where a link is seen in part (it has up to 64 such); 0 = 2
     double cutoff = 22.5; ///< m, paper methods only: no link beyond (1.5 x a street of 15 m); 0 = none
     u32 jobs = 0;         ///< threads; 0 = all cores. The result does not depend on it.
     u64 seed = 1;

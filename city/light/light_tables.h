@@ -12,9 +12,9 @@ namespace helio {
 /// radiosity_column, plus moment . slope_column where senders are linear (linear_senders.h).
 struct LinkTable
 {
-    std::vector<u32> rowBegin; ///< nodeCount + 1
-    std::vector<u32> column;   ///< sender node, ascending inside a row
-    std::vector<float> factor; ///< F(receiver to sender) x visibility, 0..1
+    std::vector<u32> rowBegin;     ///< nodeCount + 1
+    std::vector<u32> column;       ///< sender node, ascending inside a row
+    std::vector<float> factor;     ///< F(receiver to sender) x visibility, 0..1
     std::vector<glm::vec2> moment; ///< integral of factor x the sender's slope coordinates; empty: constant senders
     std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to NodeTree::children where there are moments
 };
@@ -27,8 +27,8 @@ struct SkyTable
     std::vector<u32> rowBegin; ///< patchCount + 1
     std::vector<u32> column;
     std::vector<float> factor;
-    /// Mean of SkyDome::placeIn over what the patch sees of the cell, times 2, as two snorm16 (x in the low half); empty
-    /// with a dome of one cell.
+    /// Mean of SkyDome::placeIn over what the patch sees of the cell, times 2, as two snorm16 (x in the low half);
+    /// empty with a dome of one cell.
     std::vector<u32> offset;
 };
 

@@ -8,7 +8,7 @@
 namespace helio {
 namespace {
 
-constexpr double kFlat = 1e-5;     // of the other direction's spread: patches in a row
+constexpr double kFlat = 1e-5;      // of the other direction's spread: patches in a row
 constexpr double kPointLike = 1e-6; // m: patches in one place
 
 /// Unit vectors along the principal directions of the patches below a node, with their standard deviations, m.
@@ -48,8 +48,8 @@ std::vector<SlopeFrame> slopeFrames(const NodeTree& tree)
         }
         const PlaneFrame plane = planeFrame(node.normal);
         const auto moment = [&](const glm::dvec3& a, const glm::dvec3& b) { return glm::dot(a, covariance[i] * b); };
-        const Principal p = principalOf(plane, moment(plane.u, plane.u), moment(plane.v, plane.v),
-                                        moment(plane.u, plane.v));
+        const Principal p =
+            principalOf(plane, moment(plane.u, plane.u), moment(plane.v, plane.v), moment(plane.u, plane.v));
         if (p.s1 > 0.0) frames[i].x = p.e1 / p.s1;
         if (p.s2 > 0.0) frames[i].y = p.e2 / p.s2;
     }

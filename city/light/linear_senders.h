@@ -10,10 +10,10 @@
 namespace helio {
 
 /// Slope coordinates of a planar inner node, X(p) = (x . (p - centroid), y . (p - centroid)): dimensionless, chosen so
-/// that over the centroids of the patches below the node, weighted by area, X has mean 0, variance 1 and no correlation.
-/// The best linear fit of the radiosity over the node is then B(p) = mean + slope . X(p) with slope = the area mean of
-/// X B, which needs no division and is pulled up like the mean itself. A direction in which the patches do not differ
-/// has a zero vector, as have leaves and clusters: their slope is 0.
+/// that over the centroids of the patches below the node, weighted by area, X has mean 0, variance 1 and no
+/// correlation. The best linear fit of the radiosity over the node is then B(p) = mean + slope . X(p) with slope = the
+/// area mean of X B, which needs no division and is pulled up like the mean itself. A direction in which the patches do
+/// not differ has a zero vector, as have leaves and clusters: their slope is 0.
 struct SlopeFrame
 {
     glm::dvec3 x{0.0}, y{0.0}; ///< 1/m

@@ -11,15 +11,16 @@ namespace {
 
 constexpr u32 kParts = NodeParts::kMost;
 // Shares of the worst case that turned out to be typical (scenes S and M of the reference set).
-constexpr double kWholeLinkError = 0.3;    // of the power of a link: its error if nothing is known about its inside
-constexpr double kVisibilityError = 0.1;   // of the variance that few rays leave
-constexpr double kSurelyTooCoarse = 300.0; // tolerances: power x (size / distance)^2 that no link was ever accepted with
-constexpr double kFarDistance = 1.5;       // in sums of radii: from here on the factor varies little over both nodes
-constexpr float kExactDistance = 1.25f;     // in sums of radii: nearer parts exchange what their outlines say
-constexpr u32 kFirstRays = 16;             // of a pair of which nothing is known
-constexpr u32 kKnown = 40;                 // rays of the pairs above, all open or all blocked, after which few more do
+constexpr double kWholeLinkError = 0.3;  // of the power of a link: its error if nothing is known about its inside
+constexpr double kVisibilityError = 0.1; // of the variance that few rays leave
+constexpr double kSurelyTooCoarse =
+    300.0;                              // tolerances: power x (size / distance)^2 that no link was ever accepted with
+constexpr double kFarDistance = 1.5;    // in sums of radii: from here on the factor varies little over both nodes
+constexpr float kExactDistance = 1.25f; // in sums of radii: nearer parts exchange what their outlines say
+constexpr u32 kFirstRays = 16;          // of a pair of which nothing is known
+constexpr u32 kKnown = 40;              // rays of the pairs above, all open or all blocked, after which few more do
 constexpr u32 kFewRays = 4;
-constexpr u32 kWholeRays = 8;              // of a link that is not judged by its parts
+constexpr u32 kWholeRays = 8; // of a link that is not judged by its parts
 
 double squaredRatio(double a, double b)
 {
@@ -93,8 +94,7 @@ void LinkRefiner::look(Pair& pair, u32 rays) const
         from[k] = a.node[cell[k] / kParts];
         to[k] = b.node[cell[k] % kParts];
     }
-    s_.rays.areOpen(std::span(from).first(count), std::span(to).first(count), pair.rays,
-                    std::span(open).first(count));
+    s_.rays.areOpen(std::span(from).first(count), std::span(to).first(count), pair.rays, std::span(open).first(count));
     for (u32 k = 0; k < count; ++k) {
         pair.asked[cell[k] / kParts][cell[k] % kParts] += 1.0f;
         if (open[k]) pair.seen[cell[k] / kParts][cell[k] % kParts] += 1.0f;
@@ -189,7 +189,7 @@ void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, u32 directions, Sight
     double power = 0.0;
     if ((directions & kToA) != 0) power = std::max(power, strength(a, b, transfer));
     if ((directions & kToB) != 0) power = std::max(power, strength(b, a, transfer));
-    // Where the pairs above were wholly open or blocked the first rays, if they agree, are enough.
+    // Where the pairs above were wholly open or blocked the first rays are enough.
     const u32 known = std::max(sight.open, sight.blocked);
     const double open = s_.rays.openShare(a, b, transfer, known >= kKnown ? kFewRays : kWholeRays,
                                           known > 0 ? 0.0 : kVisibilityError * power / s_.tolerance);
@@ -205,7 +205,8 @@ bool LinkRefiner::splitsReceiver(const Verdict& v, bool touches, u32 receiver, u
     if (kVisibilityError * v.visibilityError > double(v.error.sender + v.error.receiver))
         return s_.tree.nodes[receiver].area >= s_.tree.nodes[sender].area;
     // Halving the larger one helps the later levels more than the errors of this one say.
-    return double(v.error.receiver) * s_.transfer.radius(receiver) > double(v.error.sender) * s_.transfer.radius(sender);
+    return double(v.error.receiver) * s_.transfer.radius(receiver) >
+           double(v.error.sender) * s_.transfer.radius(sender);
 }
 
 void LinkRefiner::refine(u32 nodeA, u32 nodeB, u32 directions, Sight sight)
@@ -273,13 +274,17 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB, u32 directions, Sight sight)
         // The parts tell how the exchange is spread, the outlines how much it is.
         const double transfer = s_.transfer.between(nodeA, nodeB), scale = transfer / double(pair.total);
         if (toA.good)
-            link(nodeA, nodeB, transfer * pair.mean, scale * double(toA.error.momentX), scale * double(toA.error.momentY));
+            link(nodeA, nodeB, transfer * pair.mean, scale * double(toA.error.momentX),
+                 scale * double(toA.error.momentY));
         if (toB.good)
-            link(nodeB, nodeA, transfer * pair.mean, scale * double(toB.error.momentX), scale * double(toB.error.momentY));
+            link(nodeB, nodeA, transfer * pair.mean, scale * double(toB.error.momentX),
+                 scale * double(toB.error.momentY));
     }
     u32 openA = 0, openB = 0;
-    if ((directions & kToA) != 0 && !toA.good) (splitsReceiver(toA, pair.touches, nodeA, nodeB) ? openA : openB) |= kToA;
-    if ((directions & kToB) != 0 && !toB.good) (splitsReceiver(toB, pair.touches, nodeB, nodeA) ? openB : openA) |= kToB;
+    if ((directions & kToA) != 0 && !toA.good)
+        (splitsReceiver(toA, pair.touches, nodeA, nodeB) ? openA : openB) |= kToA;
+    if ((directions & kToB) != 0 && !toB.good)
+        (splitsReceiver(toB, pair.touches, nodeB, nodeA) ? openB : openA) |= kToB;
     split(nodeA, nodeB, openA, openB, sight);
 }
 

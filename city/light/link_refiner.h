@@ -61,7 +61,7 @@ private:
         /// whole tell: no link ends at a node that is not a patch.
         bool touches = false;
         u32 rays = 0;
-        u32 knownRays = 0;     // with those of the pairs above that agree
+        u32 knownRays = 0; // with those of the pairs above that agree
     };
 
     /// Whether one direction of a pair may be one link.

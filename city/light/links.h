@@ -35,17 +35,17 @@ struct LinkBuild
     u64 evaluated = 0;           ///< node pairs looked at
 };
 
-/// The hierarchical links of this project (city/README.md, "Decisions"), over candidate pairs of planar roots. A receiver
-/// is linked to a sender when the squared error that the link would leave, estimated from the exchanges of their parts
-/// under the training lights, is at most epsilon^2 x the mean patch area; else the node with the larger share in that
-/// error, weighed with its size, is refined, or the other one if it is a leaf; two leaves are always linked. Both
-/// directions of a pair share its rays, but each is refined on its own: linear senders may stay large where receivers,
-/// which get one value, may not.
+/// The hierarchical links of this project (city/README.md, "Decisions"), over candidate pairs of planar roots. A
+/// receiver is linked to a sender when the squared error that the link would leave, estimated from the exchanges of
+/// their parts under the training lights, is at most epsilon^2 x the mean patch area; else the node with the larger
+/// share in that error, weighed with its size, is refined, or the other one if it is a leaf; two leaves are always
+/// linked. Both directions of a pair share its rays, but each is refined on its own: linear senders may stay large
+/// where receivers, which get one value, may not.
 LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const Training& training,
                      std::span<const std::pair<u32, u32>> rootPairs, const LinkOptions& options);
 
-/// Rows by receiver over all nodes; `slopes` = childSlopes() of the tree for linear senders, else empty: the moments are
-/// then left out. Aborts above 2^32 - 2 links (rows are counted in 32 bits).
+/// Rows by receiver over all nodes; `slopes` = childSlopes() of the tree for linear senders, else empty: the moments
+/// are then left out. Aborts above 2^32 - 2 links (rows are counted in 32 bits).
 LinkTable linkTable(const NodeTree& tree, std::span<const NodeLink> links, u32 jobs,
                     std::vector<gpu::ChildSlopeRecord> slopes = {});
 

@@ -34,7 +34,8 @@ void gather(const NodeTree& tree, const LinkTable& links, const NodeLight& light
             const u32 sender = own ? i : links.column[k];
             sum += double(links.factor[k]) * light.mean[sender];
             if (linear)
-                sum += double(links.moment[k].x) * light.slopeX[sender] + double(links.moment[k].y) * light.slopeY[sender];
+                sum +=
+                    double(links.moment[k].x) * light.slopeX[sender] + double(links.moment[k].y) * light.slopeY[sender];
         }
         irradiance[i] = sum;
     }

@@ -15,8 +15,8 @@
 namespace helio {
 namespace {
 
-constexpr u32 kChunk = 256;         // patches
-constexpr u32 kRaysOfPlane = 1024;  // that a plane shoots at least, as long as `rays` a patch leave it fewer
+constexpr u32 kChunk = 256;        // patches
+constexpr u32 kRaysOfPlane = 1024; // that a plane shoots at least, as long as `rays` a patch leave it fewer
 
 void sortUnique(std::vector<std::pair<u32, u32>>& pairs)
 {

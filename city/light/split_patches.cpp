@@ -151,8 +151,7 @@ private:
         whole.outline = polygonsOf(old_, old_.nodes[patch].ringBegin, old_.nodes[patch].ringCount);
         if (firstPiece_[patch + 1] - firstPiece_[patch] > 1) // else the outline itself is drawn
             for (u32 p = firstPiece_[patch]; p < firstPiece_[patch + 1]; ++p)
-                whole.pieces.push_back(
-                    {p, polygonsOf(old_, build_.pieces[p].ringBegin, build_.pieces[p].ringCount)});
+                whole.pieces.push_back({p, polygonsOf(old_, build_.pieces[p].ringBegin, build_.pieces[p].ringCount)});
         return cutPart(patch, plan_.root[patch], std::move(whole), 1);
     }
 
@@ -283,8 +282,7 @@ private:
                 continue;
             }
             const u32 begin = firstPart_[instance.patch], end = firstPart_[instance.patch + 1];
-            const glm::dvec3 centre =
-                instance.worldFromAsset * glm::dvec4(assets_[instance.asset].boxCentre, 1.0);
+            const glm::dvec3 centre = instance.worldFromAsset * glm::dvec4(assets_[instance.asset].boxCentre, 1.0);
             double nearest = std::numeric_limits<double>::infinity();
             for (u32 part = begin; part < end; ++part) {
                 const double distance = glm::distance(centre, tree_.nodes[part].centroid);

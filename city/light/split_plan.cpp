@@ -100,8 +100,8 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
     s.lit.assign(grid.cellCount() * suns.size(), 0);
     const glm::dvec3 normal = tree.nodes[patch].normal;
     const std::span<const Ring3> rings = tree.outlineOf(patch);
-    const bool rectangle = rings.size() == 1 && rings[0].size() == 4 &&
-                           tree.nodes[patch].area > (1.0 - 1e-6) * grid.width * grid.height;
+    const bool rectangle =
+        rings.size() == 1 && rings[0].size() == 4 && tree.nodes[patch].area > (1.0 - 1e-6) * grid.width * grid.height;
     const std::array<u32, 4> shift = digitalShift(mixSeed(0x5911, patch));
     std::vector<glm::dvec3> points;
     std::vector<u32> cellOf;
@@ -219,7 +219,8 @@ private:
             for (size_t s = 0; s < n && total > 0.0; ++s) {
                 double lit = 0.0;
                 for (u32 cell = 0; cell < grids_[patch].cellCount(); ++cell) lit += samples_[patch].lit[cell * n + s];
-                mean[s] += p.area * p.rho.w * std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[s])) * lit / total;
+                mean[s] +=
+                    p.area * p.rho.w * std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[s])) * lit / total;
             }
         }
         scale_.assign(n, 0.0);
@@ -298,8 +299,8 @@ private:
         for (u32 patch = 0; patch < count; ++patch) {
             total += error[patch];
             if (first[patch].gain > 0.0)
-                queue.push({first[patch].gain, patch, patch, {0, 0, grids_[patch].nu, grids_[patch].nv},
-                            first[patch].axis});
+                queue.push(
+                    {first[patch].gain, patch, patch, {0, 0, grids_[patch].nu, grids_[patch].nv}, first[patch].axis});
         }
         const double limit = options_.unresolved * options_.unresolved * area_;
         const u32 most = u32(std::min(double(kNoIndex / 2), options_.growth * double(count)));
@@ -322,8 +323,8 @@ private:
             at.low = low;
             at.high = low + 1;
             at.normal = c.axis == 0 ? grid.u : grid.v;
-            const glm::dvec3 place = c.axis == 0 ? grid.at(double(parts[1].x0) / grid.nu, 0.0)
-                                                 : grid.at(0.0, double(parts[1].y0) / grid.nv);
+            const glm::dvec3 place =
+                c.axis == 0 ? grid.at(double(parts[1].x0) / grid.nu, 0.0) : grid.at(0.0, double(parts[1].y0) / grid.nv);
             at.offset = glm::dot(at.normal, place);
             total += errorOf(c.patch, parts[0]) + errorOf(c.patch, parts[1]) - errorOf(c.patch, c.block);
             ++plan.partCount;

@@ -14,9 +14,9 @@ namespace helio {
 struct Training
 {
     u32 lightCount = 0;
-    std::vector<float> radiosity; ///< [node * lightCount + light], each light scaled to an area mean of 1
-    std::vector<glm::vec2> slope; ///< [(node - patches) * lightCount + light]; empty for constant senders
-    std::vector<float> power;     ///< per node: mean over the lights of the squared radiosity
+    std::vector<float> radiosity;  ///< [node * lightCount + light], each light scaled to an area mean of 1
+    std::vector<glm::vec2> slope;  ///< [(node - patches) * lightCount + light]; empty for constant senders
+    std::vector<float> power;      ///< per node: mean over the lights of the squared radiosity
     std::vector<float> slopePower; ///< per node: mean over the lights of the squared slope
     /// Per node: mean over the lights of the variance of the radiosity about its mean and slope inside the node.
     std::vector<float> variance;
@@ -34,8 +34,8 @@ struct Training
 /// Unit vectors to suns of elevations 8 to 75 degrees, equal steps of the sine, azimuths by the golden angle.
 std::vector<glm::dvec3> trainingSuns(u32 count);
 
-/// First-hand light only, broadband channel; trainingSuns(suns), 4 shadow rays a patch and sun. `sky` is the sky view factor of each patch.
-/// `slopes`: childSlopes() of the tree, empty for constant senders.
+/// First-hand light only, broadband channel; trainingSuns(suns), 4 shadow rays a patch and sun. `sky` is the sky view
+/// factor of each patch. `slopes`: childSlopes() of the tree, empty for constant senders.
 Training trainLights(const NodeTree& tree, const Visibility& visibility, std::span<const float> sky,
                      std::span<const gpu::ChildSlopeRecord> slopes, u32 suns, u32 jobs);
 

@@ -12,8 +12,8 @@ namespace helio {
 /// What a ray meets first.
 struct RayHit
 {
-    u32 patch = kNoIndex; ///< kNoIndex: nothing, the ray leaves the scene
-    bool front = false;   ///< the lit side
+    u32 patch = kNoIndex;  ///< kNoIndex: nothing, the ray leaves the scene
+    bool front = false;    ///< the lit side
     glm::dvec3 point{0.0}; ///< where, in the tree's frame; only with a patch
 };
 
@@ -40,8 +40,8 @@ public:
     /// `blocked` has one entry a point.
     void areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& normal, const glm::dvec3& direction,
                     std::span<bool> blocked) const;
-    /// True where something lies between two surface points: from[k] on a surface of normal `fromNormal`, to[k] on one of
-    /// `toNormal`.
+    /// True where something lies between two surface points: from[k] on a surface of normal `fromNormal`, to[k] on one
+    /// of `toNormal`.
     void areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& fromNormal, std::span<const glm::dvec3> to,
                     const glm::dvec3& toNormal, std::span<bool> blocked) const;
     /// The first patch in a unit direction from a surface point.

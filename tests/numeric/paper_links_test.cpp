@@ -93,7 +93,8 @@ TEST(PaperLinks, RefinesTheNodeThatLooksLarge)
     const std::vector<NodeLink> repaired = paperLinks(tree, {.epsilon = 0.2});
     EXPECT_GT(repaired.size(), 2u);
     for (const NodeLink& link : repaired) {
-        EXPECT_TRUE(tree.isPlanarRoot(std::min(link.receiver, link.sender)) || tree.isPlanarRoot(std::max(link.receiver, link.sender)));
+        EXPECT_TRUE(tree.isPlanarRoot(std::min(link.receiver, link.sender)) ||
+                    tree.isPlanarRoot(std::max(link.receiver, link.sender)));
         EXPECT_NEAR(std::min(tree.nodes[link.receiver].centroid.z, tree.nodes[link.sender].centroid.z), 0.0, 1e-9);
         const u32 small = tree.nodes[link.receiver].centroid.z < 1.0 ? link.receiver : link.sender;
         EXPECT_NEAR(tree.nodes[small].area, 1.0, 1e-9);

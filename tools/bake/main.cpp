@@ -111,7 +111,7 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
         ->capture_default_str();
     app.add_option("--error", bake.light.error,
                    "error of the indirect light to aim at, rms over its mean: chooses how far patches are split, the "
-                   "links and the rays; halving it costs two to three times the links")
+                   "links and the rays; halving it costs about 1.5 times the links")
         ->check(numberIn(0.001, 0.5))
         ->capture_default_str();
     app.add_option("--split", bake.light.splitGrowth,
@@ -133,7 +133,8 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
                    "0 = by --error, or the paper's default")
         ->check(numberIn(0.0, 1.0))
         ->capture_default_str();
-    app.add_option("--rays", bake.light.raysPerPatch, "sky rays per patch; 0 = chosen by --error")
+    app.add_option("--rays", bake.light.raysPerPatch,
+                   "sky rays per patch, at least; 0 = chosen by --error and the number of patches")
         ->check(CLI::Range(0u, 65536u))
         ->capture_default_str();
     bake.light.skyPatches = 0;
@@ -143,7 +144,8 @@ void addBakeOptions(CLI::App& app, CommandLine& line)
            "beyond 200,000 patches")
         ->check(CLI::Range(0u, SkyDome::kMaxCells))
         ->capture_default_str();
-    app.add_option("--link-rays", bake.light.raysPerLink, "visibility rays per pair of parts of a link that is seen in part; 0 = 2")
+    app.add_option("--link-rays", bake.light.raysPerLink,
+                   "visibility rays per pair of parts of a link that is seen in part; 0 = 2")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
     app.add_option("--cutoff", bake.light.cutoff, "paper methods: no link beyond this distance, metres; 0 = none")
@@ -249,9 +251,8 @@ int runBake(CommandLine& line)
     const double peak = peakMemoryMiB();
     {
         const InterruptGuard guard;
-        const Result<LinkBytes> linkBytes =
-            writePack(result->content, line.output,
-                      {line.zstd, line.compactLinks, [] { return InterruptGuard::caught() != 0; }});
+        const Result<LinkBytes> linkBytes = writePack(
+            result->content, line.output, {line.zstd, line.compactLinks, [] { return InterruptGuard::caught() != 0; }});
         Status written = linkBytes ? Status(Nothing{}) : linkBytes.error();
         if (linkBytes) result->stats.linkBytes = *linkBytes;
         if (written && !line.stats.empty() && InterruptGuard::caught() == 0)

@@ -10,23 +10,12 @@
 #include "city/base/check.h"
 #include "city/base/hash.h"
 #include "city/model/half_space.h"
+#include "city/model/ring_polygons.h"
 
 namespace helio {
 namespace {
 
 constexpr double kTinyPart = 1e-6; // of the patch's area: such a part is rounding
-
-std::vector<Polygon3> polygonsOf(const NodeTree& tree, u32 ringBegin, u32 ringCount)
-{
-    std::vector<Polygon3> polygons;
-    for (u32 r = ringBegin; r < ringBegin + ringCount; ++r) {
-        if (tree.ringIsHole[r] == 0 || polygons.empty())
-            polygons.push_back({tree.rings[r], {}});
-        else
-            polygons.back().holes.push_back(tree.rings[r]);
-    }
-    return polygons;
-}
 
 std::vector<Polygon3> clipAll(const HalfSpace& plane, const std::vector<Polygon3>& polygons)
 {
@@ -148,10 +137,10 @@ private:
     u32 cut(u32 patch)
     {
         Part whole;
-        whole.outline = polygonsOf(old_, old_.nodes[patch].ringBegin, old_.nodes[patch].ringCount);
+        whole.outline = ringPolygons(old_, old_.nodes[patch].ringBegin, old_.nodes[patch].ringCount);
         if (firstPiece_[patch + 1] - firstPiece_[patch] > 1) // else the outline itself is drawn
             for (u32 p = firstPiece_[patch]; p < firstPiece_[patch + 1]; ++p)
-                whole.pieces.push_back({p, polygonsOf(old_, build_.pieces[p].ringBegin, build_.pieces[p].ringCount)});
+                whole.pieces.push_back({p, ringPolygons(old_, build_.pieces[p].ringBegin, build_.pieces[p].ringCount)});
         return cutPart(patch, plan_.root[patch], std::move(whole), 1);
     }
 

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "city/base/check.h"
+#include "city/model/ring_polygons.h"
 #include "city/model/triangulate.h"
 
 namespace helio {
@@ -27,20 +28,6 @@ struct Visibility::Scene
 };
 
 namespace {
-
-/// A leaf's rings as separate polygons with their holes.
-std::vector<Polygon3> polygonsOf(const NodeTree& tree, u32 patch)
-{
-    std::vector<Polygon3> polygons;
-    const Node& node = tree.nodes[patch];
-    for (u32 r = node.ringBegin; r < node.ringBegin + node.ringCount; ++r) {
-        if (!tree.ringIsHole[r] || polygons.empty())
-            polygons.push_back({tree.rings[r], {}});
-        else
-            polygons.back().holes.push_back(tree.rings[r]);
-    }
-    return polygons;
-}
 
 constexpr const char* kMemoryHint =
     " triangles (about 200 bytes each); bake a smaller area or on a machine with more memory";
@@ -109,7 +96,7 @@ Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
     for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
         double total = 0.0;
         const size_t first = s.areaUpTo.size();
-        for (const Polygon3& polygon : polygonsOf(tree, patch)) {
+        for (const Polygon3& polygon : ringPolygons(tree, tree.nodes[patch].ringBegin, tree.nodes[patch].ringCount)) {
             std::vector<glm::dvec3> corners(polygon.outer);
             for (const Ring3& hole : polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
             for (const auto& t : triangulate(polygon)) {

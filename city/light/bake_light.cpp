@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "city/base/check.h"
 #include "city/light/linear_senders.h"
@@ -119,37 +120,80 @@ private:
     LightStats& stats_;
 };
 
-} // namespace
-
-LightBake bakeLight(NodeTreeBuild& build, std::span<const AssetSummary> assets, const LightOptions& options)
+/// Cuts patches where light varies inside them.
+SplitRecord split(NodeTreeBuild& build, std::span<const AssetSummary> assets, const LightOptions& options)
 {
-    checkTree(build.tree);
-    HELIO_CHECK(options.error > 0.0 && options.splitGrowth >= 1.0, "error = ", options.error,
-                ", growth = ", options.splitGrowth);
-    if (options.method != LinkMethod::Heliopolis || options.splitGrowth <= 1.0) return bakeLight(build.tree, options);
-    LightStats split;
-    split.wholePatchCount = build.tree.patchCount();
-    Steps(options, split).run("splitting", [&](auto) {
-        const Visibility visibility(build.tree);
-        const SplitPlan plan = planSplits(build.tree, visibility, trainingSuns(kTrainingSuns), cuttablePatches(build),
-                                          {kUnresolvedOfError * options.error, options.splitGrowth, options.jobs});
-        split.unresolved = plan.unresolved;
-        splitPatches(build, assets, plan);
-        return 0;
-    });
-    LightBake bake = bakeLight(build.tree, options);
-    bake.stats.wholePatchCount = split.wholePatchCount;
-    bake.stats.unresolved = split.unresolved;
-    bake.stats.seconds.insert(bake.stats.seconds.begin(), split.seconds.begin(), split.seconds.end());
-    return bake;
+    const SplitPlan plan =
+        planSplits(build.tree, Visibility(build.tree), trainingSuns(kTrainingSuns), cuttablePatches(build),
+                   {kUnresolvedOfError * options.error, options.splitGrowth, options.jobs});
+    SplitRecord record;
+    record.unresolved = plan.unresolved;
+    record.unresolvedWhole = plan.unresolvedWhole;
+    record.wholeOf = splitPatches(build, assets, plan);
+    return record;
 }
 
-LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
+/// Patches as they are, with nothing known of their insides.
+SplitRecord unsplit(const NodeTree& tree)
 {
-    checkTree(tree);
+    SplitRecord record;
+    record.wholeOf.resize(tree.patchCount());
+    std::iota(record.wholeOf.begin(), record.wholeOf.end(), 0u);
+    return record;
+}
+
+/// Links by the error that they leave, and what is expected of them; fills in what the statistics say of them.
+LinkTable refinedLinks(const NodeTree& tree, const Visibility& visibility, const SkyScan& scan,
+                       const SplitRecord& split, const LightOptions& options, Steps& steps, LightStats& stats)
+{
+    std::vector<SlopeFrame> frames;
+    std::vector<gpu::ChildSlopeRecord> slopes;
+    if (!options.constantSenders) {
+        frames = slopeFrames(tree);
+        slopes = childSlopes(tree, frames);
+    }
+    const Training training = steps.run("training lights", [&](auto) {
+        return trainLights(tree, visibility, scan.sky, slopes, kTrainingSuns, options.jobs);
+    });
+    LinkOptions link;
+    link.leafReceivers = options.leafReceivers;
+    link.epsilon = stats.formFactorEpsilon =
+        options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : kEpsilonOfError * options.error;
+    if (options.raysPerLink > 0) link.raysPerLink = options.raysPerLink;
+    stats.raysPerLink = link.raysPerLink;
+    link.jobs = options.jobs;
+    link.seed = options.seed;
+    LinkBuild build = steps.run("links", [&](auto progress) {
+        link.progress = progress;
+        return buildLinks(tree, visibility, training, frames, scan.rootPairs, link);
+    });
+    stats.pairsEvaluated = build.evaluated;
+    LinkTable coarse = linkTable(tree, build.coarse, options.jobs, slopes);
+    build.coarse = {};
+    LinkTable links =
+        steps.run("rows", [&](auto) { return linkTable(tree, build.links, options.jobs, std::move(slopes)); });
+    stats.predicted = steps.run("predicted error", [&](auto) {
+        return predictError(tree, links, coarse, predictionLights(tree, visibility, scan.sky, options.jobs), split,
+                            options.jobs);
+    });
+    return links;
+}
+
+LinkTable linksOfPaper(const NodeTree& tree, const LightOptions& options, Steps& steps, LightStats& stats)
+{
+    PaperOptions paper;
+    paper.epsilon = stats.formFactorEpsilon =
+        options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : kDefaultPaperEpsilon;
+    paper.cutoff = options.cutoff;
+    paper.literal = options.method == LinkMethod::PaperLiteral;
+    return steps.run("links", [&](auto) { return linkTable(tree, paperLinks(tree, paper), options.jobs); });
+}
+
+LightBake bakeTree(const NodeTree& tree, const SplitRecord& split, const LightOptions& options)
+{
     LightBake bake;
     LightStats& stats = bake.stats;
-    stats.wholePatchCount = stats.splitPatchCount = tree.patchCount();
+    stats.splitPatchCount = tree.patchCount();
     Steps steps(options, stats);
     const auto visibility = steps.run("ray structure", [&](auto) { return std::make_unique<Visibility>(tree); });
     stats.raysPerPatch = options.raysPerPatch > 0 ? options.raysPerPatch : chooseRays(options.error, tree.patchCount());
@@ -160,45 +204,46 @@ LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
     });
     stats.farGround = options.farGround != glm::dvec4(0.0);
     stats.rootPairCount = u32(scan.rootPairs.size());
-
-    const auto makeRows = [&](std::span<const NodeLink> links, std::vector<gpu::ChildSlopeRecord> slopes) {
-        bake.links = steps.run("rows", [&](auto) { return linkTable(tree, links, options.jobs, std::move(slopes)); });
-    };
-    const auto epsilonOr = [&](double chosen) {
-        return stats.formFactorEpsilon = options.formFactorEpsilon > 0.0 ? options.formFactorEpsilon : chosen;
-    };
-    if (options.method == LinkMethod::Heliopolis) {
-        std::vector<gpu::ChildSlopeRecord> slopes;
-        if (!options.constantSenders) slopes = childSlopes(tree, slopeFrames(tree));
-        const Training training = steps.run("training lights", [&](auto) {
-            return trainLights(tree, *visibility, scan.sky, slopes, kTrainingSuns, options.jobs);
-        });
-        LinkOptions link;
-        link.linear = !options.constantSenders;
-        link.leafReceivers = options.leafReceivers;
-        link.epsilon = epsilonOr(kEpsilonOfError * options.error);
-        if (options.raysPerLink > 0) link.raysPerLink = options.raysPerLink;
-        stats.raysPerLink = link.raysPerLink;
-        link.jobs = options.jobs;
-        link.seed = options.seed;
-        const LinkBuild build = steps.run("links", [&](auto progress) {
-            link.progress = progress;
-            return buildLinks(tree, *visibility, training, scan.rootPairs, link);
-        });
-        stats.pairsEvaluated = build.evaluated;
-        makeRows(build.links, std::move(slopes));
-    } else {
-        PaperOptions paper;
-        paper.epsilon = epsilonOr(kDefaultPaperEpsilon);
-        paper.cutoff = options.cutoff;
-        paper.literal = options.method == LinkMethod::PaperLiteral;
-        makeRows(steps.run("links", [&](auto) { return paperLinks(tree, paper); }), {});
-    }
+    bake.links = options.method == LinkMethod::Heliopolis
+                     ? refinedLinks(tree, *visibility, scan, split, options, steps, stats)
+                     : linksOfPaper(tree, options, steps, stats);
     bake.sky = std::move(scan.links);
-
     stats.linkCount = bake.links.column.size();
     stats.linksPerPatch = double(stats.linkCount) / double(std::max(1u, tree.patchCount()));
     summariseRows(tree, bake.links, scan, stats);
+    return bake;
+}
+
+void checkOptions(const LightOptions& options)
+{
+    HELIO_CHECK(options.error > 0.0 && options.splitGrowth >= 1.0, "error = ", options.error,
+                ", growth = ", options.splitGrowth);
+}
+
+} // namespace
+
+LightBake bakeLight(NodeTreeBuild& build, std::span<const AssetSummary> assets, const LightOptions& options)
+{
+    checkOptions(options);
+    checkTree(build.tree);
+    if (options.method != LinkMethod::Heliopolis) return bakeLight(build.tree, options);
+    const u32 wholeCount = build.tree.patchCount();
+    LightStats before;
+    const SplitRecord record =
+        Steps(options, before).run("splitting", [&](auto) { return split(build, assets, options); });
+    LightBake bake = bakeTree(build.tree, record, options);
+    bake.stats.wholePatchCount = wholeCount;
+    bake.stats.unresolved = record.unresolved;
+    bake.stats.seconds.insert(bake.stats.seconds.begin(), before.seconds.begin(), before.seconds.end());
+    return bake;
+}
+
+LightBake bakeLight(const NodeTree& tree, const LightOptions& options)
+{
+    checkOptions(options);
+    checkTree(tree);
+    LightBake bake = bakeTree(tree, unsplit(tree), options);
+    bake.stats.wholePatchCount = tree.patchCount();
     return bake;
 }
 

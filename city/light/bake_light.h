@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "city/light/light_tables.h"
+#include "city/light/predicted_error.h"
 #include "city/model/build_nodes.h"
 
 namespace helio {
@@ -67,6 +68,7 @@ struct LightStats
     u32 wholePatchCount = 0;        ///< patches before splitting
     u32 splitPatchCount = 0;        ///< and after it
     double unresolved = 0.0;        ///< SplitPlan::unresolved
+    PredictedError predicted;       ///< of E_indirect; 0 for the paper methods, whose error no estimate knows
     u32 rootPairCount = 0;          ///< pairs of planar roots that may see each other
     u64 pairsEvaluated = 0;         ///< node pairs that the oracle looked at
     double formFactorEpsilon = 0.0; ///< as used: the option or the method's default

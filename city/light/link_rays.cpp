@@ -68,10 +68,10 @@ glm::dvec3 LinkRays::pointIn(u32 node, double u, double v) const
     return visibility_.pointOnPatch(node, u, v);
 }
 
-void LinkRays::areOpen(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<bool> open) const
+void LinkRays::shoot(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<RayFate> fate) const
 {
-    HELIO_CHECK(from.size() == to.size() && from.size() == open.size() && from.size() <= kMostRays, from.size(), ", ",
-                to.size(), ", ", open.size(), " rays");
+    HELIO_CHECK(from.size() == to.size() && from.size() == fate.size() && from.size() <= kMostRays, from.size(), ", ",
+                to.size(), ", ", fate.size(), " rays");
     if (from.empty()) return;
     const glm::dvec3 &na = tree_.nodes[from[0]].normal, &nb = tree_.nodes[to[0]].normal;
     const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed_, from[0]), to[0]));
@@ -80,7 +80,7 @@ void LinkRays::areOpen(std::span<const u32> from, std::span<const u32> to, u32 f
     std::array<u32, kMostRays> ray;
     u32 count = 0;
     for (u32 k = 0; k < from.size(); ++k) {
-        open[k] = false;
+        fate[k] = RayFate::Missed;
         const std::array<double, 4> x = shiftedSobol4(first + k, shift);
         a[count] = pointIn(from[k], x[0], x[1]);
         b[count] = pointIn(to[k], x[2], x[3]);
@@ -90,7 +90,7 @@ void LinkRays::areOpen(std::span<const u32> from, std::span<const u32> to, u32 f
     }
     visibility_.areBlocked(std::span(a).first(count), na, std::span(b).first(count), nb,
                            std::span(blocked).first(count));
-    for (u32 k = 0; k < count; ++k) open[ray[k]] = !blocked[k];
+    for (u32 k = 0; k < count; ++k) fate[ray[k]] = blocked[k] ? RayFate::Blocked : RayFate::Open;
 }
 
 void LinkRays::shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& shift, u32 rays) const
@@ -144,7 +144,7 @@ void LinkRays::shootNear(Tally& tally, u32 small, u32 large, const std::array<u3
     }
 }
 
-double LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double strength) const
+OpenShare LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double strength, u32 known) const
 {
     const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed_, a), b));
     const bool swap = tree_.nodes[b].area < tree_.nodes[a].area;
@@ -158,8 +158,11 @@ double LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double stren
         else
             shootFar(tally, a, b, shift, batch);
         asked += batch;
-        const double open = tally.weight > 0.0 ? tally.open / tally.weight : 1.0, n = double(tally.rays) + 2.0;
-        if (asked >= kEnoughRays || strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= 1.0) return open;
+        const double open = tally.weight > 0.0 ? tally.open / tally.weight : 0.0;
+        const bool agree = open <= 0.0 || open >= 1.0;
+        const double n = double(tally.rays + (agree ? known : 0)) + 2.0;
+        const bool enough = tally.rays > 0 && strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= 1.0;
+        if (enough || asked >= kEnoughRays) return {open, tally.rays};
     }
 }
 

@@ -6,22 +6,38 @@
 
 namespace helio {
 
+/// What became of a ray between two nodes.
+enum class RayFate : u8
+{
+    Missed, ///< its ends do not face each other: it says nothing
+    Open,
+    Blocked
+};
+
+/// The visible share of an exchange, and the rays that tell it.
+struct OpenShare
+{
+    double open = 0.0; ///< 0..1
+    u32 rays = 0;      ///< that joined points which face each other; 0: nothing is known
+};
+
 /// How much of one node another one sees, by rays between random points of both. Safe to use from several threads.
 class LinkRays
 {
 public:
     LinkRays(const NodeTree& tree, const Visibility& visibility, u64 seed);
 
-    static constexpr u32 kMostRays = 64; ///< of one call of areOpen
+    static constexpr u32 kMostRays = 64; ///< of one call of shoot
 
-    /// Rays between pairs of nodes of two planes: ray k joins a random point of from[k] and one of to[k]; true where
-    /// nothing lies between. Rays whose ends do not face each other are false. `first` numbers the rays of this pair.
-    void areOpen(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<bool> open) const;
+    /// Rays between pairs of nodes of two planes: ray k joins a random point of from[k] and one of to[k]. `first`
+    /// numbers the rays of this pair.
+    void shoot(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<RayFate> fate) const;
 
     /// Visible share of the exchange of two whole nodes, `transfer` m2 without occlusion. Far ones: points of both,
     /// weighted with cos cos / r^2; near ones (form factor above 0.1): directions by the cosine from the smaller node.
-    /// Begins with `rays` rays and takes more, up to 512, while strength x (variance of the mean) is above 1.
-    double openShare(u32 a, u32 b, double transfer, u32 rays, double strength) const;
+    /// Begins with `rays` rays and takes more, up to 512, until one has landed and strength x (variance of the mean) is
+    /// at most 1. `known` rays count with them if all agree.
+    OpenShare openShare(u32 a, u32 b, double transfer, u32 rays, double strength, u32 known) const;
 
 private:
     struct Tally

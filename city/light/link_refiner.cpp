@@ -41,11 +41,11 @@ double LinkRefiner::strength(u32 receiver, u32 sender, double exchange) const
     return exchange * exchange * double(s_.training.power[sender]) * s_.weight[receiver] / s_.tree.nodes[receiver].area;
 }
 
-void LinkRefiner::link(u32 receiver, u32 sender, double exchange, double momentX, double momentY)
+void LinkRefiner::link(u32 direction, Directions directions, const NodeLink& link)
 {
-    if (!(exchange > 0.0)) return;
-    const double area = s_.tree.nodes[receiver].area;
-    links_.push_back({receiver, sender, float(exchange / area), glm::vec2(momentX / area, momentY / area)});
+    if (!(link.factor > 0.0f)) return;
+    if ((directions.fine & direction) != 0) links_.push_back(link);
+    if ((directions.coarse & direction) != 0) coarseLinks_.push_back(link);
 }
 
 void LinkRefiner::weighNearParts(Pair& pair) const
@@ -89,17 +89,19 @@ void LinkRefiner::look(Pair& pair, u32 rays) const
         }
     }
     std::array<u32, LinkRays::kMostRays> from, to;
-    std::array<bool, LinkRays::kMostRays> open;
+    std::array<RayFate, LinkRays::kMostRays> fate;
     for (u32 k = 0; k < count; ++k) {
         from[k] = a.node[cell[k] / kParts];
         to[k] = b.node[cell[k] % kParts];
     }
-    s_.rays.areOpen(std::span(from).first(count), std::span(to).first(count), pair.rays, std::span(open).first(count));
+    s_.rays.shoot(std::span(from).first(count), std::span(to).first(count), pair.shot, std::span(fate).first(count));
+    pair.shot += count;
     for (u32 k = 0; k < count; ++k) {
+        if (fate[k] == RayFate::Missed) continue;
+        ++pair.rays;
         pair.asked[cell[k] / kParts][cell[k] % kParts] += 1.0f;
-        if (open[k]) pair.seen[cell[k] / kParts][cell[k] % kParts] += 1.0f;
+        if (fate[k] == RayFate::Open) pair.seen[cell[k] / kParts][cell[k] % kParts] += 1.0f;
     }
-    pair.rays += count;
     weighRays(pair);
 }
 
@@ -141,6 +143,15 @@ void LinkRefiner::weighRays(Pair& pair)
     pair.mean = visible / double(pair.total);
 }
 
+LinkRefiner::Sight LinkRefiner::sightOf(Pair& pair, Sight above)
+{
+    Sight sight;
+    if (pair.mean >= 1.0) sight.open = above.open + pair.rays;
+    if (pair.mean <= 0.0) sight.blocked = above.blocked + pair.rays;
+    pair.known = std::max({pair.rays, sight.open, sight.blocked});
+    return sight;
+}
+
 LinkRefiner::Verdict LinkRefiner::judge(const Pair& pair, bool toA) const
 {
     const u32 receiver = toA ? pair.a : pair.b, sender = toA ? pair.b : pair.a;
@@ -153,23 +164,28 @@ LinkRefiner::Verdict LinkRefiner::judge(const Pair& pair, bool toA) const
                               training.slopePower[sender])
                   : linkError(*pair.partsB, *pair.partsA, transposed(exchange), transposed(pair.open), pair.distance,
                               training.power[sender], training.slopePower[sender]);
-    const double n = double(std::max(pair.rays, pair.knownRays)) + 2.0;
+    const double n = double(pair.known) + 2.0;
     v.visibilityError =
         strength(receiver, sender, double(pair.total)) * (pair.mean * (1.0 - pair.mean) / n + 1.0 / (n * n));
-    v.good = double(v.error.sender) + double(v.error.receiver) + kVisibilityError * v.visibilityError <= s_.tolerance &&
-             ((!s_.leafReceivers && !pair.touches) || s_.tree.isLeaf(receiver));
+    const double error = double(v.error.sender) + double(v.error.receiver) + kVisibilityError * v.visibilityError;
+    const bool mayEnd = (!s_.leafReceivers && !pair.touches) || s_.tree.isLeaf(receiver);
+    v.good = mayEnd && error <= s_.tolerance;
+    v.goodCoarse = mayEnd && error <= kCoarser * kCoarser * s_.tolerance;
     return v;
+}
+
+bool LinkRefiner::isFaint(u32 receiver, u32 sender, double exchange) const
+{
+    return (!s_.leafReceivers || s_.tree.isLeaf(receiver)) &&
+           kWholeLinkError * strength(receiver, sender, exchange) <= s_.tolerance;
 }
 
 u32 LinkRefiner::faintDirections(const Pair& pair) const
 {
     // Only between nodes that are far apart does the whole exchange say how large its parts can be.
     if (double(pair.distance) <= kFarDistance * (s_.transfer.radius(pair.a) + s_.transfer.radius(pair.b))) return 0;
-    const auto isFaint = [&](u32 receiver, u32 sender) {
-        return (!s_.leafReceivers || s_.tree.isLeaf(receiver)) &&
-               kWholeLinkError * strength(receiver, sender, double(pair.total)) <= s_.tolerance;
-    };
-    return (isFaint(pair.a, pair.b) ? kToA : 0) | (isFaint(pair.b, pair.a) ? kToB : 0);
+    const double total = double(pair.total);
+    return (isFaint(pair.a, pair.b, total) ? kToA : 0) | (isFaint(pair.b, pair.a, total) ? kToB : 0);
 }
 
 bool LinkRefiner::isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sight) const
@@ -181,20 +197,34 @@ bool LinkRefiner::isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sigh
     if ((directions & kToA) != 0 && strength(pair.a, pair.b, total) * ratio <= limit) return false;
     if ((directions & kToB) != 0 && strength(pair.b, pair.a, total) * ratio <= limit) return false;
     // Only a pair that sees something: what is blocked is better judged as a whole.
-    return sight.open > 0 || s_.rays.openShare(pair.a, pair.b, total, kWholeRays, 0.0) > 0.0;
+    return sight.open > 0 || s_.rays.openShare(pair.a, pair.b, total, kWholeRays, 0.0, 0).open > 0.0;
 }
 
-void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, u32 directions, Sight sight)
+void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, Directions directions, Sight sight)
 {
     double power = 0.0;
-    if ((directions & kToA) != 0) power = std::max(power, strength(a, b, transfer));
-    if ((directions & kToB) != 0) power = std::max(power, strength(b, a, transfer));
-    // Where the pairs above were wholly open or blocked the first rays are enough.
+    if ((directions.fine & kToA) != 0) power = std::max(power, strength(a, b, transfer));
+    if ((directions.fine & kToB) != 0) power = std::max(power, strength(b, a, transfer));
+    // Where the pairs above were wholly open or blocked a few rays are enough.
     const u32 known = std::max(sight.open, sight.blocked);
-    const double open = s_.rays.openShare(a, b, transfer, known >= kKnown ? kFewRays : kWholeRays,
-                                          known > 0 ? 0.0 : kVisibilityError * power / s_.tolerance);
-    if ((directions & kToA) != 0) link(a, b, transfer * open, 0.0, 0.0);
-    if ((directions & kToB) != 0) link(b, a, transfer * open, 0.0, 0.0);
+    const OpenShare share = s_.rays.openShare(a, b, transfer, known >= kKnown ? kFewRays : kWholeRays,
+                                              kVisibilityError * power / s_.tolerance, known);
+    const double open = share.rays > 0 ? share.open : sight.blocked > 0 ? 0.0 : 1.0;
+    const double exchange = transfer * open;
+    link(kToA, directions, {a, b, float(exchange / s_.tree.nodes[a].area)});
+    link(kToB, directions, {b, a, float(exchange / s_.tree.nodes[b].area)});
+}
+
+void LinkRefiner::linkOrOpen(u32 a, u32 b, Directions directions, Sight sight)
+{
+    const double transfer = s_.transfer.between(a, b);
+    if (transfer <= 0.0) return;
+    const u32 faint = (isFaint(a, b, transfer) ? kToA : 0) | (isFaint(b, a, transfer) ? kToB : 0);
+    if ((directions.fine & faint) != 0) linkWhole(a, b, transfer, directions.only(faint), sight);
+    const Directions open = directions.only(~faint);
+    const bool splitA =
+        s_.tree.isLeaf(b) || (!s_.tree.isLeaf(a) && s_.transfer.radius(a) >= s_.transfer.radius(b));
+    split(a, b, splitA ? open : Directions{}, splitA ? Directions{} : open, sight);
 }
 
 bool LinkRefiner::splitsReceiver(const Verdict& v, bool touches, u32 receiver, u32 sender) const
@@ -209,7 +239,28 @@ bool LinkRefiner::splitsReceiver(const Verdict& v, bool touches, u32 receiver, u
            double(v.error.sender) * s_.transfer.radius(sender);
 }
 
-void LinkRefiner::refine(u32 nodeA, u32 nodeB, u32 directions, Sight sight)
+LinkRefiner::Directions LinkRefiner::linkGood(const Pair& pair, const Verdict& toA, const Verdict& toB,
+                                              Directions directions)
+{
+    Directions now;
+    now.fine = directions.fine & ((toA.good ? kToA : 0) | (toB.good ? kToB : 0));
+    now.coarse = directions.coarse & ((toA.goodCoarse ? kToA : 0) | (toB.goodCoarse ? kToB : 0));
+    if ((now.fine | now.coarse) != 0) {
+        // The parts tell how the exchange is spread, the outlines how much it is.
+        const double transfer = s_.transfer.between(pair.a, pair.b), scale = transfer / double(pair.total);
+        const auto linkOf = [&](u32 receiver, u32 sender, const LinkError& error) {
+            const double area = s_.tree.nodes[receiver].area;
+            return NodeLink{
+                receiver, sender, float(transfer * pair.mean / area),
+                glm::vec2(scale * double(error.momentX) / area, scale * double(error.momentY) / area)};
+        };
+        link(kToA, now, linkOf(pair.a, pair.b, toA.error));
+        link(kToB, now, linkOf(pair.b, pair.a, toB.error));
+    }
+    return {directions.fine & ~now.fine, directions.coarse & ~now.coarse};
+}
+
+void LinkRefiner::refine(u32 nodeA, u32 nodeB, Directions directions, Sight sight)
 {
     ++evaluated_;
     const NodeTree& tree = s_.tree;
@@ -230,69 +281,52 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB, u32 directions, Sight sight)
     pair.distance = glm::length(between);
     pair.total = partExchange(*pair.partsA, *pair.partsB, between, glm::vec3(tree.nodes[nodeA].normal),
                               glm::vec3(tree.nodes[nodeB].normal), pair.exchange);
-    if (pair.total <= 0.0f) { // No centroid faces another: what there is stands at the horizon.
-        const double transfer = s_.transfer.between(nodeA, nodeB);
-        if (transfer <= 0.0) return;
-        pair.total = float(transfer);
-        for (NodeParts::Row& row : pair.exchange) row.fill(0.0f);
-        pair.exchange[0][0] = pair.total;
-    }
-    if ((faintDirections(pair) & directions) == directions) {
+    // Where no centroid faces another, what there is stands at the horizon.
+    if (pair.total <= 0.0f) return linkOrOpen(nodeA, nodeB, directions, sight);
+    if ((faintDirections(pair) & directions.fine) == directions.fine) {
         linkWhole(nodeA, nodeB, s_.transfer.between(nodeA, nodeB), directions, sight);
         return;
     }
     // A node with more children than fit cannot be judged from its parts: it is opened unseen.
     const bool wideA = pair.partsA->count == 1 && !leafA, wideB = pair.partsB->count == 1 && !leafB;
-    const bool coarse = !wideA && !wideB && isSurelyTooCoarse(pair, directions, sight);
+    const bool coarse = !wideA && !wideB && isSurelyTooCoarse(pair, directions.fine, sight);
     if (wideA || wideB || coarse) {
         const bool larger = s_.transfer.radius(nodeA) >= s_.transfer.radius(nodeB);
         const bool splitA = coarse ? leafB || (!leafA && larger) : wideA;
-        split(nodeA, nodeB, splitA ? directions : 0, splitA ? 0 : directions, sight);
+        split(nodeA, nodeB, splitA ? directions : Directions{}, splitA ? Directions{} : directions, sight);
         return;
     }
     const u32 known = std::max(sight.open, sight.blocked);
     weighNearParts(pair);
-    if (pair.total <= 0.0f) return;
+    if (pair.total <= 0.0f) return linkOrOpen(nodeA, nodeB, directions, sight);
     look(pair, known == 0 ? kFirstRays : known < kKnown ? kWholeRays : kFewRays);
-    sight.open = pair.mean >= 1.0 ? sight.open + pair.rays : 0;
-    sight.blocked = pair.mean <= 0.0 ? sight.blocked + pair.rays : 0;
-    pair.knownRays = std::max({pair.rays, sight.open, sight.blocked});
+    Sight below = sightOf(pair, sight);
     Verdict toA, toB;
     const auto judgeBoth = [&] {
-        if ((directions & kToA) != 0) toA = judge(pair, true);
-        if ((directions & kToB) != 0) toB = judge(pair, false);
+        if ((directions.fine & kToA) != 0) toA = judge(pair, true);
+        if ((directions.fine & kToB) != 0) toB = judge(pair, false);
     };
     judgeBoth();
-    // Good enough to be a link: more rays sharpen its visibility where that is mixed.
-    const auto isMixed = [&](const Verdict& v) { return v.good && v.visibilityError > s_.tolerance; };
+    // Good enough to be a link: more rays sharpen its visibility where few are not enough.
     const bool mixed = pair.mean > 0.0 && pair.mean < 1.0;
-    if (isMixed(toA) || isMixed(toB) || (mixed && (toA.good || toB.good))) {
+    const auto isUnsure = [&](const Verdict& v) { return v.good && (mixed || v.visibilityError > s_.tolerance); };
+    if (isUnsure(toA) || isUnsure(toB)) {
         for (u32 k = 0; k < s_.raysPerPart; ++k) look(pair, 0);
+        below = sightOf(pair, sight);
         judgeBoth();
     }
-    if (toA.good || toB.good) {
-        // The parts tell how the exchange is spread, the outlines how much it is.
-        const double transfer = s_.transfer.between(nodeA, nodeB), scale = transfer / double(pair.total);
-        if (toA.good)
-            link(nodeA, nodeB, transfer * pair.mean, scale * double(toA.error.momentX),
-                 scale * double(toA.error.momentY));
-        if (toB.good)
-            link(nodeB, nodeA, transfer * pair.mean, scale * double(toB.error.momentX),
-                 scale * double(toB.error.momentY));
-    }
+    const Directions open = linkGood(pair, toA, toB, directions);
     u32 openA = 0, openB = 0;
-    if ((directions & kToA) != 0 && !toA.good)
-        (splitsReceiver(toA, pair.touches, nodeA, nodeB) ? openA : openB) |= kToA;
-    if ((directions & kToB) != 0 && !toB.good)
-        (splitsReceiver(toB, pair.touches, nodeB, nodeA) ? openB : openA) |= kToB;
-    split(nodeA, nodeB, openA, openB, sight);
+    if ((open.fine & kToA) != 0) (splitsReceiver(toA, pair.touches, nodeA, nodeB) ? openA : openB) |= kToA;
+    if ((open.fine & kToB) != 0) (splitsReceiver(toB, pair.touches, nodeB, nodeA) ? openB : openA) |= kToB;
+    split(nodeA, nodeB, open.only(openA), open.only(openB), below);
 }
 
-void LinkRefiner::split(u32 nodeA, u32 nodeB, u32 openA, u32 openB, Sight sight)
+void LinkRefiner::split(u32 nodeA, u32 nodeB, Directions openA, Directions openB, Sight sight)
 {
-    if (openA != 0)
+    if (openA.fine != 0)
         for (const u32 child : s_.tree.childrenOf(nodeA)) refine(child, nodeB, openA, sight);
-    if (openB != 0)
+    if (openB.fine != 0)
         for (const u32 child : s_.tree.childrenOf(nodeB)) refine(nodeA, child, openB, sight);
 }
 

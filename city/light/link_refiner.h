@@ -27,14 +27,18 @@ class LinkRefiner
 {
 public:
     static constexpr u32 kToA = 1, kToB = 2; ///< which of two nodes receives
+    static constexpr double kCoarser = 4.0;  ///< epsilon of the coarse links / that of the links
 
     explicit LinkRefiner(const RefinerScene& scene) : s_(scene) {}
 
     /// Appends the links between two planar nodes, neither an ancestor of the other, and all that is below them, in
     /// both directions.
-    void refine(u32 a, u32 b) { refine(a, b, kToA | kToB, Sight{}); }
+    void refine(u32 a, u32 b) { refine(a, b, {kToA | kToB, kToA | kToB}, Sight{}); }
 
     std::vector<NodeLink> takeLinks() { return std::move(links_); }
+    /// The links that a larger epsilon would have left, which the refinement passes on its way: what the two sets
+    /// differ by tells the error of the finer one.
+    std::vector<NodeLink> takeCoarseLinks() { return std::move(coarseLinks_); }
     u64 evaluated() const { return evaluated_; }
 
 private:
@@ -42,6 +46,14 @@ private:
     struct Sight
     {
         u32 open = 0, blocked = 0;
+    };
+
+    /// In which directions a pair still has no link; where it has no coarse one it has no fine one either.
+    struct Directions
+    {
+        u32 fine = 0, coarse = 0;
+
+        Directions only(u32 these) const { return {fine & these, coarse & these}; }
     };
 
     /// A pair of nodes at hand.
@@ -54,14 +66,15 @@ private:
         float total = 0.0f;    // m2, of `exchange`
         PartMatrix exchange;   // m2, without occlusion, [part of a][part of b]
         PartMatrix seen{};     // rays that met nothing
-        PartMatrix asked{};    // rays
+        PartMatrix asked{};    // rays that joined points which face each other
         PartMatrix open;       // visible share that they tell
         double mean = 1.0;     // of `open`, weighted with the exchange
         /// Parts are so near that a patch below them may see the other node quite differently from what the rays of the
         /// whole tell: no link ends at a node that is not a patch.
         bool touches = false;
-        u32 rays = 0;
-        u32 knownRays = 0; // with those of the pairs above that agree
+        u32 shot = 0;  // rays
+        u32 rays = 0;  // of these, those that joined points which face each other
+        u32 known = 0; // `rays`, with those of the pairs above that agree
     };
 
     /// Whether one direction of a pair may be one link.
@@ -70,28 +83,38 @@ private:
         LinkError error;
         double visibilityError = 0.0; // weighted squared error for the number of rays
         bool good = false;
+        bool goodCoarse = false; // under the coarse links' tolerance
     };
 
     const NodeParts& partsOf(u32 node, NodeParts& leaf) const;
-    void refine(u32 a, u32 b, u32 directions, Sight sight);
+    void refine(u32 a, u32 b, Directions directions, Sight sight);
     /// Puts the exact exchange where parts are so near that points do not tell it.
     void weighNearParts(Pair& pair) const;
     /// `rays` more rays, spread over the parts by what they exchange; 0: one more for each pair of parts.
     void look(Pair& pair, u32 rays) const;
     static void weighRays(Pair& pair);
+    /// What the pair's rays and those of the pairs above say together.
+    static Sight sightOf(Pair& pair, Sight above);
     Verdict judge(const Pair& pair, bool toA) const;
     bool splitsReceiver(const Verdict& verdict, bool touches, u32 receiver, u32 sender) const;
     /// Weighted squared irradiance of the receiver: the error if nothing were known of the sender.
     double strength(u32 receiver, u32 sender, double exchange) const;
+    /// Whether a link of this exchange is accurate enough whatever happens inside its nodes.
+    bool isFaint(u32 receiver, u32 sender, double exchange) const;
     u32 faintDirections(const Pair& pair) const;
     bool isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sight) const;
-    void link(u32 receiver, u32 sender, double exchange, double momentX, double momentY);
-    void linkWhole(u32 a, u32 b, double transfer, u32 directions, Sight sight);
+    /// A link of one direction, into the sets that `directions` leaves open.
+    void link(u32 direction, Directions directions, const NodeLink& link);
+    void linkWhole(u32 a, u32 b, double transfer, Directions directions, Sight sight);
+    /// A pair that cannot be judged from its parts: one link if that is small enough, else the larger node is opened.
+    void linkOrOpen(u32 a, u32 b, Directions directions, Sight sight);
+    /// The links that the verdicts allow; what stays open comes back.
+    Directions linkGood(const Pair& pair, const Verdict& toA, const Verdict& toB, Directions directions);
     /// Goes on with the children of a in the directions `openA`, with those of b in the directions `openB`.
-    void split(u32 a, u32 b, u32 openA, u32 openB, Sight sight);
+    void split(u32 a, u32 b, Directions openA, Directions openB, Sight sight);
 
     const RefinerScene& s_;
-    std::vector<NodeLink> links_;
+    std::vector<NodeLink> links_, coarseLinks_;
     u64 evaluated_ = 0;
 };
 

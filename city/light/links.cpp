@@ -18,7 +18,12 @@ namespace {
 std::vector<double> errorWeights(const NodeTree& tree)
 {
     double area = 0.0;
-    for (const Patch& patch : tree.patches) area += patch.area;
+    u32 count = 0;
+    for (const Patch& patch : tree.patches) {
+        if (patch.covered) continue;
+        area += patch.area;
+        ++count;
+    }
     std::vector<u32> patches(tree.nodeCount(), 1);
     std::vector<double> weight(tree.nodeCount());
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
@@ -26,22 +31,35 @@ std::vector<double> errorWeights(const NodeTree& tree)
             patches[i] = 0;
             for (const u32 child : tree.childrenOf(i)) patches[i] += patches[child];
         }
-        weight[i] = std::max(double(tree.patchCount()) / area, double(patches[i]) / tree.nodes[i].area);
+        weight[i] = std::max(double(std::max(count, 1u)) / std::max(area, 1e-300), double(patches[i]) / tree.nodes[i].area);
     }
     return weight;
+}
+
+std::vector<NodeLink> joined(std::vector<std::vector<NodeLink>>& runs)
+{
+    size_t total = 0;
+    for (const std::vector<NodeLink>& run : runs) total += run.size();
+    std::vector<NodeLink> all;
+    all.reserve(total);
+    for (std::vector<NodeLink>& run : runs) {
+        all.insert(all.end(), run.begin(), run.end());
+        run = {};
+    }
+    return all;
 }
 
 } // namespace
 
 LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const Training& training,
-                     std::span<const std::pair<u32, u32>> rootPairs, const LinkOptions& options)
+                     std::span<const SlopeFrame> frames, std::span<const std::pair<u32, u32>> rootPairs,
+                     const LinkOptions& options)
 {
     HELIO_CHECK(options.epsilon > 0.0 && options.raysPerLink > 0, "epsilon = ", options.epsilon,
                 ", rays = ", options.raysPerLink);
     const Transfer transfer(tree);
     const std::vector<double> weight = errorWeights(tree);
-    const std::vector<NodeParts> parts = nodeParts(
-        tree, training, transfer, options.linear ? slopeFrames(tree) : std::vector<SlopeFrame>{}, weight, options.jobs);
+    const std::vector<NodeParts> parts = nodeParts(tree, training, transfer, frames, weight, options.jobs);
     const LinkRays rays(tree, visibility, options.seed);
     const RefinerScene scene{.tree = tree,
                              .training = training,
@@ -57,7 +75,7 @@ LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const T
                 " pairs of surfaces see each other, the limit is ", kNoIndex - kChunk - 1,
                 " (they are counted in 32 bits); bake a smaller area");
     const u32 count = u32(rootPairs.size());
-    std::vector<std::vector<NodeLink>> linksOf((count + kChunk - 1) / kChunk);
+    std::vector<std::vector<NodeLink>> linksOf((count + kChunk - 1) / kChunk), coarseOf(linksOf.size());
     LinkBuild build;
     std::mutex mutex;
     u32 done = 0;
@@ -65,18 +83,14 @@ LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const T
         LinkRefiner refiner(scene);
         for (u32 i = begin; i < end; ++i) refiner.refine(rootPairs[i].first, rootPairs[i].second);
         linksOf[begin / kChunk] = refiner.takeLinks();
+        coarseOf[begin / kChunk] = refiner.takeCoarseLinks();
         const std::lock_guard lock(mutex);
         done += end - begin;
         build.evaluated += refiner.evaluated();
         if (options.progress) options.progress(double(done) / double(count));
     });
-    size_t total = 0;
-    for (const std::vector<NodeLink>& links : linksOf) total += links.size();
-    build.links.reserve(total);
-    for (std::vector<NodeLink>& links : linksOf) {
-        build.links.insert(build.links.end(), links.begin(), links.end());
-        links = {};
-    }
+    build.links = joined(linksOf);
+    build.coarse = joined(coarseOf);
     return build;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "city/light/light_tables.h"
+#include "city/light/linear_senders.h"
 #include "city/light/training.h"
 #include "city/light/visibility.h"
 
@@ -23,7 +24,6 @@ struct LinkOptions
     double epsilon = 0.0;       ///< see LightOptions::formFactorEpsilon; > 0
     u32 raysPerLink = 2;        ///< visibility rays of a pair of parts where a link is seen in part, > 0
     bool leafReceivers = false; ///< links end at patches alone: rows without push-down
-    bool linear = true;         ///< senders with slopes (linear_senders.h); false: constant ones
     u32 jobs = 0;
     u64 seed = 1;
     std::function<void(double)> progress{};
@@ -32,6 +32,8 @@ struct LinkOptions
 struct LinkBuild
 {
     std::vector<NodeLink> links; ///< in the order of the root pairs
+    /// Those that LinkRefiner::kCoarser times the epsilon would have left, for predictError.
+    std::vector<NodeLink> coarse;
     u64 evaluated = 0;           ///< node pairs looked at
 };
 
@@ -40,9 +42,10 @@ struct LinkBuild
 /// their parts under the training lights, is at most epsilon^2 x the mean patch area; else the node with the larger
 /// share in that error, weighed with its size, is refined, or the other one if it is a leaf; two leaves are always
 /// linked. Both directions of a pair share its rays, but each is refined on its own: linear senders may stay large
-/// where receivers, which get one value, may not.
+/// where receivers, which get one value, may not. `frames` = slopeFrames() of the tree, empty for constant senders.
 LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const Training& training,
-                     std::span<const std::pair<u32, u32>> rootPairs, const LinkOptions& options);
+                     std::span<const SlopeFrame> frames, std::span<const std::pair<u32, u32>> rootPairs,
+                     const LinkOptions& options);
 
 /// Rows by receiver over all nodes; `slopes` = childSlopes() of the tree for linear senders, else empty: the moments
 /// are then left out. Aborts above 2^32 - 2 links (rows are counted in 32 bits).

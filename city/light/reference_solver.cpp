@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "city/base/check.h"
+#include "city/light/light_flow.h"
 #include "city/light/linear_senders.h"
 
 namespace helio {
@@ -17,54 +18,27 @@ double largest(const glm::dvec4& v)
     return std::max(std::max(v.x, v.y), std::max(v.z, v.w));
 }
 
-/// Radiosity of every node; with linear senders two slopes a node too.
-struct NodeLight
+/// The paper's misprint: each link brings the receiver's own radiosity.
+void gatherOwn(const NodeTree& tree, const LinkTable& links, const NodeLight& light,
+               std::vector<glm::dvec4>& irradiance)
 {
-    std::vector<glm::dvec4> mean, slopeX, slopeY;
-};
-
-/// Gathers at every node, then hands irradiance down: afterwards every leaf holds its whole indirect irradiance.
-void gather(const NodeTree& tree, const LinkTable& links, const NodeLight& light, bool own,
-            std::vector<glm::dvec4>& irradiance)
-{
-    const bool linear = !links.moment.empty();
-    for (u32 i = 0; i < tree.nodeCount(); ++i) {
-        glm::dvec4 sum(0.0);
-        for (u32 k = links.rowBegin[i]; k < links.rowBegin[i + 1]; ++k) {
-            const u32 sender = own ? i : links.column[k];
-            sum += double(links.factor[k]) * light.mean[sender];
-            if (linear)
-                sum +=
-                    double(links.moment[k].x) * light.slopeX[sender] + double(links.moment[k].y) * light.slopeY[sender];
-        }
-        irradiance[i] = sum;
-    }
-    for (u32 i = tree.nodeCount(); i-- > 0;)
-        if (const u32 parent = tree.nodes[i].parent; parent != kNoIndex) irradiance[i] += irradiance[parent];
+    LinkTable own = links;
+    for (u32 i = 0; i < tree.nodeCount(); ++i)
+        for (u32 k = links.rowBegin[i]; k < links.rowBegin[i + 1]; ++k) own.column[k] = i;
+    gatherLight(tree, own, light, 1, irradiance);
 }
 
-/// Flux comes up, and with it the slopes: children have smaller numbers than their parents.
-void pullUp(const NodeTree& tree, const LinkTable& links, NodeLight& light)
+/// Per patch, the most irradiance that radiosities of at most 1 can bring: |F B + M . slope| <= sqrt(F^2 + |M|^2), for
+/// a sender's squared mean and slopes add up to its mean square at most.
+std::vector<double> patchRowNorms(const NodeTree& tree, const LinkTable& links)
 {
-    for (u32 i = tree.patchCount(); i < tree.nodeCount(); ++i) {
-        const Node& node = tree.nodes[i];
-        glm::dvec4 flux(0.0), x(0.0), y(0.0);
-        for (u32 k = node.childBegin; k < node.childBegin + node.childCount; ++k) {
-            const u32 child = tree.children[k];
-            const double area = tree.nodes[child].area;
-            flux += area * light.mean[child];
-            if (light.slopeX.empty()) continue;
-            const gpu::ChildSlopeRecord& s = links.childSlopes[k];
-            x += area * (double(s.offsetX) * light.mean[child] + double(s.xx) * light.slopeX[child] +
-                         double(s.xy) * light.slopeY[child]);
-            y += area * (double(s.offsetY) * light.mean[child] + double(s.yx) * light.slopeX[child] +
-                         double(s.yy) * light.slopeY[child]);
-        }
-        light.mean[i] = flux / node.area;
-        if (light.slopeX.empty()) continue;
-        light.slopeX[i] = x / node.area;
-        light.slopeY[i] = y / node.area;
-    }
+    if (links.moment.empty()) return patchRowSums(tree, links);
+    LinkTable norms;
+    norms.rowBegin = links.rowBegin;
+    norms.factor = links.factor;
+    for (size_t k = 0; k < norms.factor.size(); ++k)
+        norms.factor[k] = std::hypot(norms.factor[k], glm::length(links.moment[k]));
+    return patchRowSums(tree, norms);
 }
 
 } // namespace
@@ -96,26 +70,27 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
                                                                  : patch.emission + patch.rho * incident;
     }
     glm::dvec4 contraction(0.0);
-    const std::vector<double> rowSum = patchRowSums(tree, links);
-    for (u32 i = 0; i < count; ++i) contraction = glm::max(contraction, tree.patches[i].rho * rowSum[i]);
+    const std::vector<double> norm = patchRowNorms(tree, links);
+    for (u32 i = 0; i < count; ++i) contraction = glm::max(contraction, tree.patches[i].rho * norm[i]);
 
     HELIO_CHECK(links.moment.empty() ||
                     (links.moment.size() == links.column.size() && links.childSlopes.size() == tree.children.size()),
                 links.moment.size(), " moments and ", links.childSlopes.size(), " child slopes for ",
                 links.column.size(), " links");
     Solution solution;
-    NodeLight light;
+    NodeLight light = darkLight(tree, links);
     std::vector<glm::dvec4>& radiosity = light.mean;
-    radiosity.resize(tree.nodeCount());
-    if (!links.moment.empty()) {
-        light.slopeX.assign(tree.nodeCount(), glm::dvec4(0.0));
-        light.slopeY = light.slopeX;
-    }
     std::copy(first.begin(), first.end(), radiosity.begin());
     pullUp(tree, links, light);
-    std::vector<glm::dvec4> irradiance(tree.nodeCount());
+    std::vector<glm::dvec4> irradiance;
+    const auto gather = [&] {
+        if (options.rule == UpdateRule::OwnRadiosity)
+            gatherOwn(tree, links, light, irradiance);
+        else
+            gatherLight(tree, links, light, 1, irradiance);
+    };
     for (u32 k = 0; k < options.maxSweeps; ++k) {
-        gather(tree, links, light, options.rule == UpdateRule::OwnRadiosity, irradiance);
+        gather();
         double changed = 0.0, reflected = 0.0;
         glm::dvec4 largestChange(0.0), squares(0.0);
         for (u32 i = 0; i < count; ++i) {
@@ -143,7 +118,7 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
         solution.sweeps.push_back(sweep);
         if (sweep.residual <= options.residual) break;
     }
-    gather(tree, links, light, options.rule == UpdateRule::OwnRadiosity, irradiance);
+    gather();
     solution.indirect.assign(irradiance.begin(), irradiance.begin() + count);
     solution.radiosity = std::move(light.mean);
     return solution;

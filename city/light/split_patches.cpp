@@ -56,7 +56,8 @@ public:
                     " patches");
     }
 
-    void run()
+    /// The old number of each new patch.
+    std::vector<u32> run()
     {
         tree_.names = std::move(old_.names);
         tree_.surfaceNames = std::move(old_.surfaceNames);
@@ -76,6 +77,10 @@ public:
         moveInstances();
         build_.pieces = std::move(pieces_);
         build_.tree = std::move(tree_);
+        std::vector<u32> oldOf(build_.tree.patchCount());
+        for (u32 patch = 0; patch < topOf_.size(); ++patch)
+            std::fill(oldOf.begin() + firstPart_[patch], oldOf.begin() + firstPart_[patch + 1], patch);
+        return oldOf;
     }
 
 private:
@@ -307,9 +312,9 @@ std::vector<u8> cuttablePatches(const NodeTreeBuild& build)
     return may;
 }
 
-void splitPatches(NodeTreeBuild& build, std::span<const AssetSummary> assets, const SplitPlan& plan)
+std::vector<u32> splitPatches(NodeTreeBuild& build, std::span<const AssetSummary> assets, const SplitPlan& plan)
 {
-    Splitter(build, assets, plan).run();
+    return Splitter(build, assets, plan).run();
 }
 
 } // namespace helio

@@ -302,6 +302,7 @@ private:
                 queue.push(
                     {first[patch].gain, patch, patch, {0, 0, grids_[patch].nu, grids_[patch].nv}, first[patch].axis});
         }
+        const double whole = total;
         const double limit = options_.unresolved * options_.unresolved * area_;
         const u32 most = u32(std::min(double(kNoIndex / 2), options_.growth * double(count)));
         while (!queue.empty() && plan.partCount < most && total > limit) {
@@ -333,7 +334,9 @@ private:
                 if (next.gain > 0.0) queue.push({next.gain, c.patch, count + low + k, parts[k], next.axis});
             }
         }
-        plan.unresolved = area_ > 0.0 ? std::sqrt(std::max(0.0, total) / area_) : 0.0;
+        const auto rootMean = [&](double sum) { return area_ > 0.0 ? std::sqrt(std::max(0.0, sum) / area_) : 0.0; };
+        plan.unresolved = rootMean(total);
+        plan.unresolvedWhole = rootMean(whole);
         return plan;
     }
 

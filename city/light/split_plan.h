@@ -25,6 +25,7 @@ struct SplitPlan
     /// training suns of the variance of rho E_sun inside the parts, each light over its mean, times the square of size
     /// over distance (at most 1).
     double unresolved = 0.0;
+    double unresolvedWhole = 0.0; ///< the same without any cut
 };
 
 /// How far to split.

@@ -49,7 +49,8 @@ RTCRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, double end
 
 /// Shadow rays eight at a time: faster, since rays side by side go through the structure together. ray(k): start and
 /// direction of ray k.
-template <class Ray> void traceShadows(RTCScene scene, float end, std::span<bool> blocked, Ray&& ray)
+template <class Ray>
+void traceShadows(RTCScene scene, float end, bool coherent, std::span<bool> blocked, Ray&& ray)
 {
     constexpr size_t kWidth = 8;
     for (size_t first = 0; first < blocked.size(); first += kWidth) {
@@ -70,6 +71,7 @@ template <class Ray> void traceShadows(RTCScene scene, float end, std::span<bool
         }
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
+        if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
         rtcOccluded8(valid, scene, &context, &rays);
         for (size_t k = 0; k < count; ++k) blocked[first + k] = rays.tfar[k] < 0.0f;
     }
@@ -191,7 +193,7 @@ void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& 
 {
     HELIO_CHECK(blocked.size() == from.size(), blocked.size(), " places for ", from.size(), " rays");
     const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
-    traceShadows(scene_->scene, std::numeric_limits<float>::infinity(), blocked,
+    traceShadows(scene_->scene, std::numeric_limits<float>::infinity(), true, blocked,
                  [&](size_t k) { return std::pair(from[k] + lift, direction); });
 }
 
@@ -201,7 +203,7 @@ void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& 
     HELIO_CHECK(blocked.size() == from.size() && to.size() == from.size(), from.size(), " and ", to.size(), " ends, ",
                 blocked.size(), " places");
     const glm::dvec3 lift = scene_->lift * fromNormal - scene_->origin, turn = scene_->lift * (toNormal - fromNormal);
-    traceShadows(scene_->scene, 1.0f, blocked,
+    traceShadows(scene_->scene, 1.0f, false, blocked,
                  [&](size_t k) { return std::pair(from[k] + lift, to[k] - from[k] + turn); });
 }
 

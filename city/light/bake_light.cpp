@@ -20,8 +20,8 @@ namespace helio {
 namespace {
 
 // What an error of E_indirect is made of, on scenes S and M at their default: README.md has the curves.
-constexpr double kEpsilonOfError = 0.06;      // of one link
-constexpr double kUnresolvedOfError = 0.53;   // of the light inside patches
+constexpr double kEpsilonOfError = 0.07;      // of one link
+constexpr double kUnresolvedOfError = 0.95;   // of the light inside patches
 constexpr double kDefaultPaperEpsilon = 0.02; // form factor
 constexpr u32 kTrainingSuns = 20;
 

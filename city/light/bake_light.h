@@ -31,7 +31,7 @@ struct LightOptions
     /// `error`, or the paper's default.
     double formFactorEpsilon = 0.0;
     /// Heliopolis: largest number of patches after splitting / before; 1 = none is split, however wrong.
-    double splitGrowth = 3.0;
+    double splitGrowth = 5.0;
     /// Heliopolis: a link sees its sender's mean radiosity alone (the paper's way), not its slope too.
     bool constantSenders = false;
     bool leafReceivers = false; ///< Heliopolis: links end at patches alone (rows without push-down)

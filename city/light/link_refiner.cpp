@@ -18,8 +18,8 @@ constexpr double kSurelyTooCoarse =
 constexpr double kFarDistance = 1.5;    // in sums of radii: from here on the factor varies little over both nodes
 constexpr float kExactDistance = 1.25f; // in sums of radii: nearer parts exchange what their outlines say
 constexpr u32 kFirstRays = 16;          // of a pair of which nothing is known
-constexpr u32 kKnown = 40;              // rays of the pairs above, all open or all blocked, after which few more do
-constexpr u32 kFewRays = 4;
+constexpr u32 kKnown = 24;              // rays of the pairs above, all open or all blocked, after which few more do
+constexpr u32 kFewRays = 2;
 constexpr u32 kWholeRays = 8; // of a link that is not judged by its parts
 
 double squaredRatio(double a, double b)
@@ -71,21 +71,18 @@ void LinkRefiner::look(Pair& pair, u32 rays) const
     const NodeParts &a = *pair.partsA, &b = *pair.partsB;
     std::array<u32, LinkRays::kMostRays> cell;
     u32 count = 0;
-    if (rays == 0) {
-        for (u32 k = 0; k < a.count * b.count; ++k) {
-            const u32 i = k / b.count, j = k % b.count;
-            if (pair.exchange[i][j] > 0.0f) cell[count++] = i * kParts + j;
-        }
-    } else {
-        u32 k = 0;
-        float below = pair.exchange[0][0];
-        for (; count < rays; ++count) {
-            const float stratum = (float(count) + 0.5f) / float(rays) * pair.total;
-            while (below < stratum && k + 1 < a.count * b.count) {
-                ++k;
-                below += pair.exchange[k / b.count][k % b.count];
+    const float step = rays > 0 ? pair.total / float(rays) : 0.0f;
+    float upTo = 0.0f;
+    for (u32 i = 0; i < a.count; ++i) {
+        for (u32 j = 0; j < b.count; ++j) {
+            const float part = pair.exchange[i][j];
+            if (part <= 0.0f) continue;
+            if (rays == 0) {
+                cell[count++] = i * kParts + j;
+                continue;
             }
-            cell[count] = k / b.count * kParts + k % b.count;
+            upTo += part;
+            while (count < rays && (float(count) + 0.5f) * step <= upTo) cell[count++] = i * kParts + j;
         }
     }
     std::array<u32, LinkRays::kMostRays> from, to;

@@ -31,7 +31,8 @@ std::vector<double> errorWeights(const NodeTree& tree)
             patches[i] = 0;
             for (const u32 child : tree.childrenOf(i)) patches[i] += patches[child];
         }
-        weight[i] = std::max(double(std::max(count, 1u)) / std::max(area, 1e-300), double(patches[i]) / tree.nodes[i].area);
+        weight[i] = double(patches[i]) / tree.nodes[i].area;
+        if (area > 0.0) weight[i] = std::max(weight[i], double(count) / area);
     }
     return weight;
 }

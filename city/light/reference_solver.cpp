@@ -28,16 +28,42 @@ void gatherOwn(const NodeTree& tree, const LinkTable& links, const NodeLight& li
     gatherLight(tree, own, light, 1, irradiance);
 }
 
-/// Per patch, the most irradiance that radiosities of at most 1 can bring: |F B + M . slope| <= sqrt(F^2 + |M|^2), for
-/// a sender's squared mean and slopes add up to its mean square at most.
+/// Per node, the corners of a box around the slope coordinates of the patches below.
+struct SlopeBox
+{
+    glm::dvec2 low{0.0}, high{0.0};
+};
+
+std::vector<SlopeBox> slopeBoxes(const NodeTree& tree)
+{
+    const std::vector<SlopeFrame> frames = slopeFrames(tree);
+    std::vector<SlopeBox> boxes(tree.nodeCount());
+    for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
+        for (u32 i = tree.nodes[patch].parent; i != kNoIndex; i = tree.nodes[i].parent) {
+            const glm::dvec2 at = frames[i].at(tree.nodes[patch].centroid - tree.nodes[i].centroid);
+            boxes[i].low = glm::min(boxes[i].low, at);
+            boxes[i].high = glm::max(boxes[i].high, at);
+        }
+    }
+    return boxes;
+}
+
+/// Per patch, the most irradiance that patches of a radiosity of at most 1 can bring. Where F + M . X is positive all
+/// over the sender, a link is a mean with weights that add up to F; else |F B + M . slope| <= sqrt(F^2 + |M|^2), for a
+/// sender's squared mean and slopes add up to its mean square at most.
 std::vector<double> patchRowNorms(const NodeTree& tree, const LinkTable& links)
 {
     if (links.moment.empty()) return patchRowSums(tree, links);
+    const std::vector<SlopeBox> boxes = slopeBoxes(tree);
     LinkTable norms;
     norms.rowBegin = links.rowBegin;
     norms.factor = links.factor;
-    for (size_t k = 0; k < norms.factor.size(); ++k)
-        norms.factor[k] = std::hypot(norms.factor[k], glm::length(links.moment[k]));
+    for (size_t k = 0; k < norms.factor.size(); ++k) {
+        const SlopeBox& box = boxes[links.column[k]];
+        const glm::dvec2 moment(links.moment[k]), least = glm::min(moment * box.low, moment * box.high);
+        if (double(links.factor[k]) + least.x + least.y < 0.0)
+            norms.factor[k] = std::hypot(norms.factor[k], glm::length(links.moment[k]));
+    }
     return patchRowSums(tree, norms);
 }
 

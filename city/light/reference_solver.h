@@ -32,7 +32,7 @@ struct Sweep
     /// - B0 is taken after the sweep, so that the first sweep has one too.
     double residual = 0.0;
     /// Rigorous bound of the error of B after the sweep in the maximum norm, W/m2, largest channel: change x q / (1 -
-    /// q) with q = the largest rho x row sum (of sqrt(F^2 + |M|^2) with linear senders); infinite if q >= 1.
+    /// q) with q = the largest rho x row sum, where a link whose weights change sign counts more; infinite if q >= 1.
     double bound = 0.0;
     double paperError = 0.0; ///< the paper's E_i = sqrt(sum over patches (B^i - B^(i-1))^2), largest channel, W/m2
 };

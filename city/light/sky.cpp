@@ -6,6 +6,7 @@
 #include <glm/packing.hpp>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 
 #include "city/base/check.h"
 #include "city/base/hash.h"
@@ -32,6 +33,24 @@ struct SkyRows
     std::vector<float> factor;
     std::vector<u32> offset;
 };
+
+/// The first `count` points of the sequence, those of neighbouring directions behind each other. A digital shift moves
+/// neighbours together, so the order is good for every patch.
+std::vector<u32> raysByDirection(u32 count)
+{
+    constexpr u32 kBits = 4; // of each coordinate
+    const auto cellOf = [](u32 index) {
+        const std::array<u32, 4> x = sobol4(index);
+        u32 cell = 0;
+        for (u32 bit = 0; bit < kBits; ++bit)
+            cell = cell << 2 | (x[0] >> (31 - bit) & 1u) << 1 | (x[1] >> (31 - bit) & 1u);
+        return cell;
+    };
+    std::vector<u32> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](u32 a, u32 b) { return cellOf(a) < cellOf(b); });
+    return order;
+}
 
 /// The rays of a patch that ended in a cell.
 struct CellRays
@@ -104,6 +123,8 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
     for (std::vector<float>* column : {&scan.sky, &scan.below, &scan.rowSum, &scan.back}) column->resize(count);
     std::vector<std::vector<std::pair<u32, u32>>> pairsOf((count + kChunk - 1) / kChunk);
     std::vector<SkyRows> rowsOf(pairsOf.size());
+    std::vector<std::vector<u32>> orders{raysByDirection(rays)}; // of once, twice, four times as many rays
+    while (orders.back().size() < kRaysOfPlane) orders.push_back(raysByDirection(2 * u32(orders.back().size())));
     std::mutex mutex;
     u32 done = 0;
 
@@ -112,10 +133,13 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         SkyRows& rows = rowsOf[begin / kChunk];
         std::vector<u32> seen, cells;
         std::vector<CellRays> inCell(dome.cellCount() + 1); // the last: the plain beyond
+        std::vector<glm::dvec3> from, directions;
+        std::vector<RayHit> hits;
         for (u32 patch = begin; patch < end; ++patch) {
             // Planes of few patches need more rays to meet all that they see.
             u32 own = rays;
-            while (own < kRaysOfPlane && own * patchesOf[root[patch]] < kRaysOfPlane) own *= 2;
+            const std::vector<u32>* order = orders.data();
+            for (; own < kRaysOfPlane && own * patchesOf[root[patch]] < kRaysOfPlane; ++order) own *= 2;
             const float share = 1.0f / float(own);
             if (tree.patches[patch].covered) {
                 endRow(rows, inCell, cells, share);
@@ -125,13 +149,20 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
             const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed, 0x5ca7), patch));
             u32 sky = 0, below = 0, front = 0, back = 0;
             seen.clear();
+            from.resize(own);
+            directions.resize(own);
+            hits.resize(own);
             for (u32 k = 0; k < own; ++k) {
-                const std::array<double, 4> x = shiftedSobol4(k, shift);
+                const std::array<double, 4> x = shiftedSobol4((*order)[k], shift);
                 const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-                const glm::dvec3 direction =
+                directions[k] =
                     r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * frame.normal;
-                const RayHit hit =
-                    visibility.trace(visibility.pointOnPatch(patch, x[2], x[3]), frame.normal, direction);
+                from[k] = visibility.pointOnPatch(patch, x[2], x[3]);
+            }
+            visibility.trace(from, frame.normal, directions, hits);
+            for (u32 k = 0; k < own; ++k) {
+                const RayHit& hit = hits[k];
+                const glm::dvec3& direction = directions[k];
                 if (hit.patch == kNoIndex && direction.z > 0.0) {
                     ++sky;
                     const u32 cell = dome.cellOf(direction);

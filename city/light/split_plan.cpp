@@ -18,9 +18,10 @@
 namespace helio {
 namespace {
 
-constexpr u32 kFewestCells = 16, kMostCells = 1024, kPointsPerCell = 4;
-constexpr double kLargeCell = 2.0; // m2: patches whose cells would be larger get more of them
-constexpr u32 kNearRays = 64;
+constexpr u32 kFewestCells = 16, kMostCells = 4096;
+constexpr double kLargeCell = 0.5; // m2: patches whose cells would be larger get more of them, with fewer points each
+/// Of the squared light inside cells, as four points a cell estimate it, what shows in E_indirect (scenes S and M).
+constexpr double kInCells = 0.25;
 constexpr double kNearest = 0.1; // m: nearer surfaces count as this far
 
 /// The grid of cells over the bounding rectangle of a patch.
@@ -89,7 +90,7 @@ struct Samples
 {
     std::vector<u8> points; ///< of each cell that lie on the patch, 0..4
     std::vector<u8> lit;    ///< [cell * suns + sun]: of these, those that the sun reaches
-    double nearness = 0.0;  ///< 1/m: mean over cosine rays of 1 / distance
+    std::vector<float> near; ///< 1/m, of each cell: sum over its points of 1 / distance along a cosine ray
 };
 
 Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns, u32 patch,
@@ -103,14 +104,14 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
     const bool rectangle =
         rings.size() == 1 && rings[0].size() == 4 && tree.nodes[patch].area > (1.0 - 1e-6) * grid.width * grid.height;
     const std::array<u32, 4> shift = digitalShift(mixSeed(0x5911, patch));
+    const u32 columns = grid.cellCount() <= kFewestCells ? 2 : 1; // strata of a cell, two rows of them
     std::vector<glm::dvec3> points;
     std::vector<u32> cellOf;
     for (u32 cell = 0; cell < grid.cellCount(); ++cell) {
-        for (u32 k = 0; k < kPointsPerCell; ++k) {
-            // 2 x 2 strata in each cell, jittered.
-            const std::array<double, 4> r = shiftedSobol4(cell * kPointsPerCell + k, shift);
-            const double x = (cell % grid.nu + 0.5 * ((k & 1) + r[2])) / grid.nu,
-                         y = (cell / grid.nu + 0.5 * ((k >> 1) + r[3])) / grid.nv;
+        for (u32 k = 0; k < 2 * columns; ++k) {
+            const std::array<double, 4> r = shiftedSobol4(cell * 2 * columns + k, shift);
+            const double x = (cell % grid.nu + (k % columns + r[2]) / columns) / grid.nu,
+                         y = (cell / grid.nu + 0.5 * (k / columns + r[3])) / grid.nv;
             if (!rectangle && !isInside(grid, rings, x, y)) continue;
             points.push_back(grid.at(x, y));
             cellOf.push_back(cell);
@@ -124,15 +125,16 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
         for (size_t p = 0; p < points.size(); ++p)
             if (!blocked[p]) ++s.lit[cellOf[p] * suns.size() + sun];
     }
+    s.near.assign(grid.cellCount(), 0.0f);
     const PlaneFrame frame = planeFrame(normal);
-    for (u32 k = 0; k < kNearRays && !points.empty(); ++k) {
+    for (u32 k = 0; k < points.size(); ++k) {
         const std::array<double, 4> x = shiftedSobol4(k, shift);
         const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
         const glm::dvec3 direction =
             r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
-        const glm::dvec3& from = points[k % points.size()];
-        const RayHit hit = visibility.trace(from, normal, direction);
-        if (hit.patch != kNoIndex) s.nearness += 1.0 / std::max(kNearest, glm::distance(hit.point, from)) / kNearRays;
+        const RayHit hit = visibility.trace(points[k], normal, direction);
+        if (hit.patch == kNoIndex) continue;
+        s.near[cellOf[k]] += float(1.0 / std::max(kNearest, glm::distance(hit.point, points[k])));
     }
     return s;
 }
@@ -244,7 +246,9 @@ private:
         const size_t n = suns_.size();
         const double points = pointsIn(patch, b);
         if (points == 0.0) return 0.0;
-        double variance = 0.0;
+        double variance = 0.0, nearness = 0.0;
+        for (u32 y = b.y0; y < b.y1; ++y)
+            for (u32 x = b.x0; x < b.x1; ++x) nearness += double(s.near[y * grid.nu + x]) / points;
         for (size_t sun = 0; sun < n; ++sun) {
             const double cosine = glm::dot(tree_.nodes[patch].normal, suns_[sun]);
             if (cosine <= 0.0) continue;
@@ -261,9 +265,34 @@ private:
             variance += unit * unit * std::max(0.0, squares / points - mean * mean) / double(n);
         }
         const double width = grid.width * (b.x1 - b.x0) / grid.nu, height = grid.height * (b.y1 - b.y0) / grid.nv;
-        const double size = std::max(width, height) * s.nearness;
+        const double size = std::max(width, height) * nearness;
         const double all = pointsIn(patch, {0, 0, grid.nu, grid.nv});
         return tree_.patches[patch].area * points / all * variance * std::min(1.0, size * size);
+    }
+
+    /// The same inside the cells, which no cut can resolve.
+    double errorInCells(u32 patch) const
+    {
+        const Samples& s = samples_[patch];
+        const Grid& grid = grids_[patch];
+        const size_t n = suns_.size();
+        if (s.lit.empty()) return 0.0;
+        const double size = std::max(grid.width / grid.nu, grid.height / grid.nv);
+        double sum = 0.0, points = 0.0;
+        for (u32 cell = 0; cell < grid.cellCount(); ++cell) {
+            const double inCell = s.points[cell];
+            points += inCell;
+            if (inCell < 2.0) continue;
+            double variance = 0.0;
+            for (size_t sun = 0; sun < n; ++sun) {
+                const double cosine = std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[sun]));
+                const double unit = tree_.patches[patch].rho.w * cosine * scale_[sun], lit = s.lit[cell * n + sun];
+                variance += unit * unit * lit * (inCell - lit) / (inCell * (inCell - 1.0) * double(n));
+            }
+            const double near = size * double(s.near[cell]) / inCell;
+            sum += inCell * variance * std::min(1.0, near * near);
+        }
+        return points > 0.0 ? tree_.patches[patch].area * sum / points : 0.0;
     }
 
     /// The first of the cuts that gain most per added patch; looks two cuts ahead, since one alone may gain nothing.
@@ -335,8 +364,10 @@ private:
             }
         }
         const auto rootMean = [&](double sum) { return area_ > 0.0 ? std::sqrt(std::max(0.0, sum) / area_) : 0.0; };
-        plan.unresolved = rootMean(total);
-        plan.unresolvedWhole = rootMean(whole);
+        double inCells = 0.0;
+        for (u32 patch = 0; patch < count; ++patch) inCells += kInCells * errorInCells(patch);
+        plan.unresolved = rootMean(total + inCells);
+        plan.unresolvedWhole = rootMean(whole + inCells);
         return plan;
     }
 

@@ -25,6 +25,15 @@ struct Visibility::Scene
     std::vector<u32> triangleBegin; // per patch, + 1
     std::vector<u32> patchOfTriangle;
     std::vector<float> areaUpTo; // share of the patch's area up to and with each triangle
+
+    /// What a ray met, from the triangle's normal and the place on it.
+    RayHit hitOn(u32 triangle, const glm::vec3& normal, float u, float v, const glm::dvec3& direction) const
+    {
+        // From the corners: more exact than the ray's own length where it came from far away.
+        const glm::dvec3 a(corners[3 * triangle]), b(corners[3 * triangle + 1]), c(corners[3 * triangle + 2]);
+        const bool front = glm::dot(glm::dvec3(normal), direction) < 0.0;
+        return {patchOfTriangle[triangle], front, origin + a + double(u) * (b - a) + double(v) * (c - a)};
+    }
 };
 
 namespace {
@@ -47,12 +56,26 @@ RTCRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, double end
     return ray;
 }
 
+constexpr size_t kWidth = 8; // of a packet
+
+/// Ray k of a packet.
+void setRay(RTCRay8& packet, size_t k, const glm::dvec3& origin, const glm::dvec3& direction, float end)
+{
+    packet.org_x[k] = float(origin.x);
+    packet.org_y[k] = float(origin.y);
+    packet.org_z[k] = float(origin.z);
+    packet.dir_x[k] = float(direction.x);
+    packet.dir_y[k] = float(direction.y);
+    packet.dir_z[k] = float(direction.z);
+    packet.tfar[k] = end;
+    packet.mask[k] = ~0u;
+}
+
 /// Shadow rays eight at a time: faster, since rays side by side go through the structure together. ray(k): start and
 /// direction of ray k.
 template <class Ray>
 void traceShadows(RTCScene scene, float end, bool coherent, std::span<bool> blocked, Ray&& ray)
 {
-    constexpr size_t kWidth = 8;
     for (size_t first = 0; first < blocked.size(); first += kWidth) {
         const size_t count = std::min(kWidth, blocked.size() - first);
         alignas(32) RTCRay8 rays{};
@@ -60,14 +83,7 @@ void traceShadows(RTCScene scene, float end, bool coherent, std::span<bool> bloc
         for (size_t k = 0; k < kWidth; ++k) {
             valid[k] = k < count ? -1 : 0;
             const auto [origin, direction] = ray(first + std::min(k, count - 1));
-            rays.org_x[k] = float(origin.x);
-            rays.org_y[k] = float(origin.y);
-            rays.org_z[k] = float(origin.z);
-            rays.dir_x[k] = float(direction.x);
-            rays.dir_y[k] = float(direction.y);
-            rays.dir_z[k] = float(direction.z);
-            rays.tfar[k] = end;
-            rays.mask[k] = ~0u;
+            setRay(rays, k, origin, direction, end);
         }
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
@@ -218,13 +234,37 @@ RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_->scene, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    const double along =
-        double(hit.hit.Ng_x) * direction.x + double(hit.hit.Ng_y) * direction.y + double(hit.hit.Ng_z) * direction.z;
-    // From the corners: more exact than the ray's own length where it came from far away.
-    const glm::dvec3 a(scene_->corners[3 * hit.hit.primID]), b(scene_->corners[3 * hit.hit.primID + 1]),
-        c(scene_->corners[3 * hit.hit.primID + 2]);
-    const glm::dvec3 point = scene_->origin + a + double(hit.hit.u) * (b - a) + double(hit.hit.v) * (c - a);
-    return {scene_->patchOfTriangle[hit.hit.primID], along < 0.0, point};
+    return scene_->hitOn(hit.hit.primID, {hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z}, hit.hit.u, hit.hit.v, direction);
+}
+
+void Visibility::trace(std::span<const glm::dvec3> from, const glm::dvec3& normal,
+                       std::span<const glm::dvec3> direction, std::span<RayHit> hit) const
+{
+    HELIO_CHECK(direction.size() == from.size() && hit.size() == from.size(), from.size(), " starts, ",
+                direction.size(), " directions, ", hit.size(), " places");
+    const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
+    for (size_t first = 0; first < from.size(); first += kWidth) {
+        const size_t count = std::min(kWidth, from.size() - first);
+        alignas(32) RTCRayHit8 packet{};
+        alignas(32) int valid[kWidth];
+        for (size_t k = 0; k < kWidth; ++k) {
+            valid[k] = k < count ? -1 : 0;
+            const size_t ray = first + std::min(k, count - 1);
+            setRay(packet.ray, k, from[ray] + lift, direction[ray], std::numeric_limits<float>::infinity());
+            packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+            packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+        }
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect8(valid, scene_->scene, &context, &packet);
+        for (size_t k = 0; k < count; ++k) {
+            hit[first + k] = {};
+            if (packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+            hit[first + k] =
+                scene_->hitOn(packet.hit.primID[k], {packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]},
+                              packet.hit.u[k], packet.hit.v[k], direction[first + k]);
+        }
+    }
 }
 
 } // namespace helio

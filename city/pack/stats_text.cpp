@@ -56,6 +56,10 @@ void lightLines(std::string& text, const LightStats& light)
     if (light.splitPatchCount > light.wholePatchCount)
         line(text, "  %u patches were split to %u, unresolved light inside them %.2f %%", light.wholePatchCount,
              light.splitPatchCount, 100.0 * light.unresolved);
+    if (light.predicted.total > 0.0)
+        line(text, "  predicted error %.2f %% of E_indirect under suns (links %.2f, patches %.2f), %.2f %% under a sky",
+             100.0 * light.predicted.total, 100.0 * light.predicted.links, 100.0 * light.predicted.patches,
+             100.0 * light.predicted.sky);
     line(text, "  links %llu, %.1f per patch", static_cast<unsigned long long>(light.linkCount), light.linksPerPatch);
     rangeLine(text, "row sum + sky (1)", light.closure);
     rangeLine(text, "row sum of links", light.rowSum);
@@ -91,6 +95,10 @@ void addLight(nlohmann::ordered_json& json, const LightStats& light)
     json["whole_patches"] = light.wholePatchCount;
     json["split_patches"] = light.splitPatchCount;
     json["unresolved"] = light.unresolved;
+    json["predicted_error"] = light.predicted.total;
+    json["predicted_error_of_links"] = light.predicted.links;
+    json["predicted_error_of_patches"] = light.predicted.patches;
+    json["predicted_error_sky"] = light.predicted.sky;
     json["links"] = light.linkCount;
     json["links_per_patch"] = light.linksPerPatch;
     json["planar_root_pairs"] = light.rootPairCount;

@@ -262,10 +262,10 @@ TEST(Links, StatisticsNameTheValuesInUse)
 {
     const NodeTree tree = makeTree(street());
     const LightStats chosen = bakeLight(tree, {}).stats;
-    EXPECT_EQ(chosen.formFactorEpsilon, 0.06 * 0.02);
+    EXPECT_EQ(chosen.formFactorEpsilon, 0.07 * 0.02);
     EXPECT_EQ(chosen.raysPerPatch, 1024u);
     EXPECT_EQ(chosen.raysPerLink, 2u);
-    EXPECT_EQ(bakeLight(tree, {.error = 0.01}).stats.formFactorEpsilon, 0.06 * 0.01);
+    EXPECT_EQ(bakeLight(tree, {.error = 0.01}).stats.formFactorEpsilon, 0.07 * 0.01);
     const LightStats given = bakeLight(tree, {.formFactorEpsilon = 3e-3, .raysPerPatch = 200, .raysPerLink = 7}).stats;
     EXPECT_EQ(given.formFactorEpsilon, 3e-3);
     EXPECT_EQ(given.raysPerPatch, 200u);

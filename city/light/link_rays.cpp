@@ -17,23 +17,6 @@ namespace {
 constexpr u32 kEnoughRays = 512;    // of one pair, however strong its link
 constexpr double kNearFactor = 0.1; // form factor from which on rays are aimed by the cosine
 
-/// Even-odd test in the coordinate plane that the polygon's plane is nearest to.
-bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
-{
-    const glm::dvec3 n = glm::abs(normal);
-    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z > n.x && n.z > n.y ? 1 : 2;
-    bool inside = false;
-    for (const Ring3& ring : rings) {
-        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-            const glm::dvec3 &a = ring[i], &b = ring[j];
-            if ((a[v] > point[v]) != (b[v] > point[v]) &&
-                point[u] < a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]))
-                inside = !inside;
-        }
-    }
-    return inside;
-}
-
 } // namespace
 
 LinkRays::LinkRays(const NodeTree& tree, const Visibility& visibility, u64 seed)

@@ -71,20 +71,6 @@ Grid gridOf(const NodeTree& tree, u32 patch)
     return grid;
 }
 
-bool isInside(const Grid& grid, std::span<const Ring3> rings, double x, double y)
-{
-    const glm::dvec2 p(x * grid.width, y * grid.height);
-    bool inside = false;
-    for (const Ring3& ring : rings) {
-        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-            const glm::dvec2 a(glm::dot(ring[i] - grid.origin, grid.u), glm::dot(ring[i] - grid.origin, grid.v)),
-                b(glm::dot(ring[j] - grid.origin, grid.u), glm::dot(ring[j] - grid.origin, grid.v));
-            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-        }
-    }
-    return inside;
-}
-
 /// Direct light on the cells of a patch.
 struct Samples
 {
@@ -112,8 +98,9 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
             const std::array<double, 4> r = shiftedSobol4(cell * 2 * columns + k, shift);
             const double x = (cell % grid.nu + (k % columns + r[2]) / columns) / grid.nu,
                          y = (cell / grid.nu + 0.5 * (k / columns + r[3])) / grid.nv;
-            if (!rectangle && !isInside(grid, rings, x, y)) continue;
-            points.push_back(grid.at(x, y));
+            const glm::dvec3 point = grid.at(x, y);
+            if (!rectangle && !isInside(point, rings, normal)) continue;
+            points.push_back(point);
             cellOf.push_back(cell);
             ++s.points[cell];
         }

@@ -12,7 +12,7 @@ namespace helio {
 namespace {
 
 constexpr double kPointDistance = 30.0;    // in sums of radii: one point each is right to 1e-3
-constexpr double kFourPointDistance = 4.0; // four points each are right to 3e-4
+constexpr double kFourPointDistance = 3.0; // four points each are right to 1e-3
 
 /// Integral of x x^T over a node's own rings, x relative to `centre`, m4.
 glm::dmat3 secondMoment(std::span<const Ring3> rings, const glm::dvec3& centre, const glm::dvec3& normal)

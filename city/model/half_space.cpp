@@ -12,20 +12,6 @@ namespace {
 
 constexpr double kMinArea = 1e-10; ///< m2: smaller loops are rounding
 
-bool contains(const Ring3& ring, const glm::dvec3& p, const glm::dvec3& normal)
-{
-    // Even-odd rule in the coordinate plane that the polygon faces most.
-    const glm::dvec3 n = glm::abs(normal);
-    const int u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z >= n.x && n.z >= n.y ? 1 : 2;
-    bool inside = false;
-    for (size_t k = 0, j = ring.size() - 1; k < ring.size(); j = k++) {
-        const glm::dvec3 &a = ring[k], &b = ring[j];
-        if ((a[v] > p[v]) != (b[v] > p[v]) && p[u] < (b[u] - a[u]) * (p[v] - a[v]) / (b[v] - a[v]) + a[u])
-            inside = !inside;
-    }
-    return inside;
-}
-
 /// A run of a ring on the kept side: from where it enters across the plane to where it leaves.
 using Chain = Ring3;
 
@@ -138,7 +124,7 @@ std::vector<Polygon3> assembleLoops(std::vector<Ring3> loops, const glm::dvec3& 
         for (Polygon3& polygon : polygons) {
             // A corner of the hole may touch the outline, so the majority of its corners decides.
             const auto inside = std::count_if(hole.begin(), hole.end(),
-                                              [&](const glm::dvec3& p) { return contains(polygon.outer, p, normal); });
+                                              [&](const glm::dvec3& p) { return isInside(p, {&polygon.outer, 1}, normal); });
             if (polygons.size() > 1 && size_t(inside) * 2 <= hole.size()) continue;
             polygon.holes.push_back(std::move(hole));
             break;

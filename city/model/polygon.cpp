@@ -2,6 +2,7 @@
 #include "city/model/polygon.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace helio {
@@ -40,6 +41,22 @@ glm::dvec3 vectorArea(std::span<const glm::dvec3> ring)
     glm::dvec3 twice(0.0);
     for (size_t i = 1; i + 1 < ring.size(); ++i) twice += glm::cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
     return 0.5 * twice;
+}
+
+bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
+{
+    const glm::dvec3 n = glm::abs(normal);
+    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z >= n.x && n.z >= n.y ? 1 : 2;
+    bool inside = false;
+    for (const Ring3& ring : rings) {
+        for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+            const glm::dvec3 &a = ring[i], &b = ring[j];
+            if ((a[v] > point[v]) != (b[v] > point[v]) &&
+                point[u] < (b[u] - a[u]) * (point[v] - a[v]) / (b[v] - a[v]) + a[u])
+                inside = !inside;
+        }
+    }
+    return inside;
 }
 
 glm::dvec3 vectorArea(const Polygon3& polygon)

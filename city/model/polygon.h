@@ -48,6 +48,8 @@ bool contains(std::span<const glm::dvec2> ring, const glm::dvec2& point);
 /// Vector area of a ring, m2 (Newell): its length is the area, its direction the normal of the lit side.
 glm::dvec3 vectorArea(std::span<const glm::dvec3> ring);
 glm::dvec3 vectorArea(const Polygon3& polygon);
+/// Even-odd test of a point in the plane of some rings, in the coordinate plane that they face most.
+bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal);
 double area(const Polygon3& polygon);
 /// Unit normal of the lit side; zero vector for a degenerate polygon.
 glm::dvec3 unitNormal(const Polygon3& polygon);

@@ -13,6 +13,7 @@ add_executable(light_test
     numeric/paper_links_test.cpp
     numeric/path_tracer_test.cpp
     numeric/scenes_test.cpp
+    numeric/predicted_error_test.cpp
     numeric/solver_test.cpp
     numeric/text_table.cpp
     numeric/visibility_test.cpp

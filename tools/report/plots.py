@@ -81,12 +81,13 @@ def peer_plot(data, output):
             axis.errorbar([row["seconds"] for row in rows], [100 * e["rms"] for e in f],
                           yerr=[[100 * (e["rms"] - e["rms_low"]) for e in f], [100 * (e["rms_high"] - e["rms"]) for e in f]],
                           marker=marker, color=colour, linewidth=1, label=title)
-    ours = data["ours"]
-    rms = 100 * ours["errors"]["A"]["E_indirect"]["rms"]
-    axis.plot([ours["relight_seconds"]], [rms], "*", color=COLOURS[BEST], markersize=14, label="Heliopolis: relight")
-    axis.plot([ours["bake_seconds"]], [rms], "*", color=COLOURS[BEST], markersize=14, fillstyle="none",
-              label="Heliopolis: bake, once")
-    axis.axhline(rms, color=COLOURS[BEST], linewidth=0.6, linestyle=":")
+    ours = [data["ours"], *data.get("finer", [])]
+    rms = [100 * point["errors"]["A"]["E_indirect"]["rms"] for point in ours]
+    axis.plot([point["relight_seconds"] for point in ours], rms, "*-", color=COLOURS[BEST], markersize=14, linewidth=1,
+              label="Heliopolis: relight")
+    axis.plot([point["bake_seconds"] for point in ours], rms, "*-", color=COLOURS[BEST], markersize=14, linewidth=1,
+              fillstyle="none", label="Heliopolis: bake, once")
+    axis.axhline(rms[0], color=COLOURS[BEST], linewidth=0.6, linestyle=":")
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlabel("seconds")

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The error that a bake expects of itself: its parts against closed forms, the whole against the reference of scene S.
+#include "city/light/predicted_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "city/layout/surfaces.h"
+#include "city/light/bake_light.h"
+#include "city/light/error_metrics.h"
+#include "city/light/reference_solver.h"
+#include "city/light/sun.h"
+#include "city/model/build_nodes.h"
+#include "tests/accuracy/csv_table.h"
+#include "tests/numeric/fixtures.h"
+
+using namespace helio;
+using namespace helio::test;
+
+namespace {
+
+/// `count` patches of 1 m2, each a plane of its own.
+NodeTree plates(u32 count, double rho)
+{
+    std::vector<Face> faces;
+    for (u32 i = 0; i < count; ++i)
+        append(faces, grid({0, 0, double(i)}, {1, 0, 0}, {0, 1, 0}, 1, 1, {{}, i, glm::dvec4(rho)}));
+    return makeTree(faces);
+}
+
+double rmsOfSun(const NodeTree& tree, const LightBake& bake, const std::vector<glm::dvec4>& direct,
+                const CsvTable& reference, const char* column, const char* error)
+{
+    const std::vector<glm::dvec4> none(tree.patchCount(), glm::dvec4(0.0));
+    const Solution s = solveLight(tree, bake.links, direct, none, {.residual = 1e-5});
+    double sum = 0.0;
+    for (u32 c = 0; c < 3; ++c) {
+        std::vector<double> mean(reference.rows, 0.0), area(reference.rows, 0.0);
+        for (u32 i = 0; i < tree.patchCount(); ++i) {
+            mean[tree.patches[i].sourceFace] += tree.patches[i].area * s.indirect[i][glm::length_t(c)];
+            area[tree.patches[i].sourceFace] += tree.patches[i].area;
+        }
+        for (size_t f = 0; f < mean.size(); ++f) mean[f] /= area[f];
+        sum += compare(reference.column("area"), mean, reference.column(std::string(column) + "rgb"[c]),
+                       reference.column(error), std::vector<bool>(reference.rows, true))
+                   .rms /
+               3.0;
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST(PredictedError, HalfTheDifferenceThatCoarseLinksMake)
+{
+    // Two plates, rho = 1/2, one lit: E1 = x / (1 - x^2), E0 = x E1 with x = rho F; F = 0.4 against 0.3.
+    const NodeTree tree = plates(2, 0.5);
+    const LinkTable links = makeLinks(tree, {{0, 1, 0.4}, {1, 0, 0.4}}),
+                    coarse = makeLinks(tree, {{0, 1, 0.3}, {1, 0, 0.3}});
+    const std::vector<glm::dvec4> direct{glm::dvec4(3.0), glm::dvec4(0.0)};
+    const PredictedError e = predictError(tree, links, coarse, direct, {{0, 1}, 0.0, 0.0}, 1);
+    const double fine = 0.2 / 0.96, other = 0.15 / 0.9775;
+    const double d1 = fine - other, d0 = 0.2 * fine - 0.15 * other;
+    const double expected = 0.5 * std::sqrt(0.5 * (d0 * d0 + d1 * d1)) / (0.5 * (fine + 0.2 * fine));
+    EXPECT_NEAR(e.links, expected, 1e-3 * expected);
+    EXPECT_NEAR(e.sky, expected, 1e-3 * expected);
+    EXPECT_EQ(e.patches, 0.0);
+    EXPECT_NEAR(e.total, e.links, 1e-12);
+}
+
+TEST(PredictedError, PartsThatSendAlikeTellWhatPatchesHide)
+{
+    // Two parts of one patch, one of them lit, send to a third plate, with F = 0.3 and 0.1: E = 0.15, and 0.1 from
+    // their mean. Rms over 3 m2: 0.05 / sqrt(3); mean 0.05. The plan left 0.1 and resolved sqrt(0.2^2 - 0.1^2).
+    const NodeTree tree = plates(3, 0.5);
+    const LinkTable links = makeLinks(tree, {{2, 0, 0.3}, {2, 1, 0.1}});
+    const std::vector<glm::dvec4> direct{glm::dvec4(1.0), glm::dvec4(0.0), glm::dvec4(0.0)};
+    const PredictedError e = predictError(tree, links, links, direct, {{0, 0, 1}, 0.1, 0.2}, 1);
+    EXPECT_EQ(e.links, 0.0);
+    EXPECT_NEAR(e.patches, 1.0 / 3.0, 1e-7); // factors are floats
+    // Where the cuts resolved next to nothing the plan's own figure counts, by half.
+    EXPECT_NEAR(predictError(tree, links, links, direct, {{0, 0, 1}, 0.1, 0.11}, 1).patches, 0.05, 1e-12);
+}
+
+TEST(PredictedError, IsWithinAFactorOfTwoOfTheMeasuredOneOnFourBuildings)
+{
+    const std::string base = std::string(HELIO_TEST_DATA) + "/scenes/S";
+    const CsvTable reference = readCsvTable(base + ".reference.csv");
+    LightOptions coarse, whole;
+    coarse.error = 0.08;
+    whole.splitGrowth = 1.0;
+    for (const LightOptions& options : {LightOptions{}, coarse, whole}) {
+        const Result<ShapeTree> shapes = readSurfaces(base + ".obj", base + ".csv");
+        ASSERT_TRUE(shapes.ok()) << shapes.error().message;
+        NodeTreeBuild build = buildNodes(shapes.value(), {});
+        const LightBake bake = bakeLight(build, {}, options);
+        const u32 n = build.tree.patchCount();
+        const Visibility visibility(build.tree);
+        const double degree = std::numbers::pi / 180.0;
+        const std::vector<double> share = raySun(build.tree, visibility, sunDirection(150 * degree, 40 * degree), 256);
+        std::vector<glm::dvec4> sun(n);
+        for (u32 i = 0; i < n; ++i) sun[i] = glm::dvec4(800.0 * share[i]);
+        const double bySun = rmsOfSun(build.tree, bake, sun, reference, "sun_ind_", "sun_ind_se_g");
+        const PredictedError& e = bake.stats.predicted;
+        std::printf("%u patches: predicted %.2f %% (links %.2f, patches %.2f), sun %.2f %%\n", n, 100 * e.total,
+                    100 * e.links, 100 * e.patches, 100 * bySun);
+        EXPECT_LT(e.total, 2.0 * bySun);
+        EXPECT_GT(e.total, 0.5 * bySun);
+    }
+}

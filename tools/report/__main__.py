@@ -24,6 +24,8 @@ def parse():
     parser.add_argument("--parts", metavar="NAME,...", default="curves,switches,peers,scaling,figures",
                         help="only these parts: curves, switches, peers, scaling, figures; what an earlier run left in the "
                         "output folder's report.json stays for the others")
+    parser.add_argument("--methods", metavar="NAME,...", help="only these lines of the curves, as methods.py names them; the "
+                        "others stay as an earlier run left them")
     parser.add_argument("--bin", type=pathlib.Path, default=environment.ROOT / "build" / "release" / "bin",
                         help="folder of the programs (build/release/bin)")
     parser.add_argument("--longest", type=float, default=120.0, metavar="SECONDS",

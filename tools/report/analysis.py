@@ -44,9 +44,10 @@ def curve_at(x, points):
 
 
 def paid_after(bake_seconds, seconds_each, peer_seconds_each, peer_once=0.0):
-    """Number of sun positions after which bake + n x ours is no more than the peer's once + n x its own; None: never."""
+    """The first number of sun positions at which bake + n x ours is no more than the peer's once + n x its own; None:
+    never. Where the peer is faster a sun, it may be so for the first many positions only."""
     gain = peer_seconds_each - seconds_each
     ahead = bake_seconds - peer_once
     if ahead <= 0:
-        return 0 if gain >= 0 else None
+        return 0
     return math.ceil(ahead / gain) if gain > 0 else None

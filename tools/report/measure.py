@@ -53,6 +53,9 @@ def errors_of(programs, scene, pack, arguments=(), direct=None):
     """{case: {quantity: figures}} and the solver's sweeps; "A+sky" has the total under sun and sky together."""
     errors, light, solves = {}, {}, {}
     table = programs.work / "table.csv"
+    if not scene.faces and "--first-light" not in arguments:
+        # The sun raster sees dormers and cornices that the traced patches lack: rays of the same patches for both.
+        arguments, direct = [*arguments, "--first-light", "@"], {} if direct is None else direct
     for case in scene.cases():
         words = [own_direct_light(programs, scene, pack, case, direct) if word == "@" else word for word in arguments]
         solves[case] = programs.render(pack, [*light_arguments(case), "--table", table, "--per",
@@ -148,6 +151,8 @@ def curves(programs, scene, say, options, notes, default):
     """{method: points}, without the methods that this build lacks."""
     result = {}
     for method in METHODS:
+        if options.methods and method.name not in options.methods.split(","):
+            continue
         if (method.scenes and scene.name not in method.scenes) or (not scene.faces and options.quick):
             continue
         lacking = programs.missing("heliopolis-bake", [*method.arguments, method.option])

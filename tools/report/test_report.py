@@ -42,6 +42,7 @@ class Analysis(unittest.TestCase):
         self.assertEqual(analysis.paid_after(10, 0.1, 1.1), 10)
         self.assertIsNone(analysis.paid_after(10, 1, 0.5))
         self.assertEqual(analysis.paid_after(10, 1, 2, peer_once=20), 0)
+        self.assertEqual(analysis.paid_after(10, 1, 0.5, peer_once=20), 0)
 
     def test_median(self):
         self.assertEqual(analysis.median([3, 1, 2]), 2)

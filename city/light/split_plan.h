@@ -31,7 +31,8 @@ struct SplitPlan
 /// How far to split.
 struct SplitOptions
 {
-    double unresolved = 0.0; ///< until SplitPlan::unresolved is at most this; 0 = as far as `growth` allows
+    /// Until SplitPlan::unresolved, light inside cells left out, is at most this; 0 = as far as `growth` allows.
+    double unresolved = 0.0;
     double growth = 5.0;     ///< largest number of patches afterwards / before; 1 = none is split
     u32 jobs = 0;
 };

@@ -18,9 +18,7 @@ namespace helio {
 struct Visibility::Scene
 {
     RTCDevice device = nullptr;
-    RTCScene scene = nullptr;     // triangles of the patches, for rays that ask what they meet
-    RTCScene occluders = nullptr; // of the highest planar nodes that their outlines fill, for rays that ask whether
-    std::vector<glm::vec3> occluderCorners;
+    RTCScene scene = nullptr;
     glm::dvec3 origin{0.0};
     double lift = 0.0;              // m, how far rays start off a surface
     std::vector<glm::vec3> corners; // three a triangle, shared with Embree (padded by one)
@@ -95,71 +93,6 @@ void traceShadows(RTCScene scene, float end, bool coherent, std::span<bool> bloc
     }
 }
 
-/// Appends the triangles of some rings, in floats relative to `origin`, three corners each.
-void appendTriangles(const NodeTree& tree, u32 ringBegin, u32 ringCount, const glm::dvec3& origin,
-                     std::vector<glm::vec3>& corners)
-{
-    for (const Polygon3& polygon : ringPolygons(tree, ringBegin, ringCount)) {
-        std::vector<glm::dvec3> points(polygon.outer);
-        for (const Ring3& hole : polygon.holes) points.insert(points.end(), hole.begin(), hole.end());
-        for (const auto& t : triangulate(polygon))
-            for (const u32 corner : t) corners.emplace_back(points[corner] - origin);
-    }
-}
-
-/// Fewer and larger triangles than those of the patches, over the same area.
-std::vector<glm::vec3> occluderTriangles(const NodeTree& tree, const glm::dvec3& origin)
-{
-    // Faces of one plane that overlap can make up for gaps in the sum of their areas only by accident.
-    const auto isFilled = [&](u32 node) {
-        if (tree.isLeaf(node)) return true;
-        if (tree.nodes[node].kind == NodeKind::Cluster) return false;
-        double outline = 0.0;
-        for (const Polygon3& polygon : ringPolygons(tree, tree.nodes[node].ringBegin, tree.nodes[node].ringCount))
-            outline += area(polygon);
-        return std::abs(tree.nodes[node].area / outline - 1.0) < 1e-9;
-    };
-    std::vector<glm::vec3> corners;
-    std::vector<u8> covered(tree.nodeCount(), 0); // by a filled node above
-    for (u32 i = tree.nodeCount(); i-- > 0;) {    // parents have larger numbers than their children
-        const u32 parent = tree.nodes[i].parent;
-        covered[i] = parent == kNoIndex ? 0 : covered[parent];
-        if (covered[i] != 0 || !isFilled(i)) continue;
-        covered[i] = 1;
-        appendTriangles(tree, tree.nodes[i].ringBegin, tree.nodes[i].ringCount, origin, corners);
-    }
-    return corners;
-}
-
-/// A committed scene over triangles of three corners each. Embree keeps pointing at `corners`, padded by one: it reads
-/// 16 bytes a vertex.
-RTCScene commitTriangles(RTCDevice device, std::vector<glm::vec3>& corners)
-{
-    const size_t triangles = corners.size() / 3;
-    constexpr size_t kMostTriangles = std::numeric_limits<u32>::max() / 3;
-    HELIO_CHECK(triangles <= kMostTriangles, "the patches make ", triangles, " triangles, the limit of the rays is ",
-                kMostTriangles, "; bake a smaller area");
-    corners.emplace_back(0.0f);
-    const RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, corners.data(), 0,
-                               sizeof(glm::vec3), corners.size() - 1);
-    auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                              3 * sizeof(u32), std::max<size_t>(1, triangles)));
-    HELIO_CHECK(indices != nullptr, "Embree has no memory for ", triangles, kMemoryHint);
-    for (u32 i = 0; i < 3 * triangles; ++i) indices[i] = i;
-    if (triangles == 0) indices[0] = indices[1] = indices[2] = 0;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    const RTCError error = rtcGetDeviceError(device);
-    HELIO_CHECK(error != RTC_ERROR_OUT_OF_MEMORY, "Embree has no memory for ", triangles, kMemoryHint);
-    HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", triangles, " triangles");
-    return scene;
-}
-
 } // namespace
 
 Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
@@ -195,18 +128,37 @@ Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
             s.areaUpTo[t] = total > 0.0 ? float(double(s.areaUpTo[t]) / total) : 1.0f;
         s.triangleBegin.push_back(u32(s.patchOfTriangle.size()));
     }
+    const size_t triangles = s.patchOfTriangle.size();
+    constexpr size_t kMostTriangles = std::numeric_limits<u32>::max() / 3;
+    HELIO_CHECK(triangles <= kMostTriangles, "the patches make ", triangles, " triangles, the limit of the rays is ",
+                kMostTriangles, "; bake a smaller area");
+    s.corners.emplace_back(0.0f); // Embree reads 16 bytes a vertex.
+
     // One thread: the order of triangles inside the structure, hence ties between coincident ones, must not vary.
     s.device = rtcNewDevice("threads=1");
     HELIO_CHECK(s.device != nullptr, "Embree gives no device, error ", int(rtcGetDeviceError(nullptr)));
-    s.scene = commitTriangles(s.device, s.corners);
-    s.occluderCorners = occluderTriangles(tree, s.origin);
-    s.occluders = commitTriangles(s.device, s.occluderCorners);
+    s.scene = rtcNewScene(s.device);
+    rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.corners.data(), 0,
+                               sizeof(glm::vec3), s.corners.size() - 1);
+    auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                              3 * sizeof(u32), std::max<size_t>(1, triangles)));
+    HELIO_CHECK(indices != nullptr, "Embree has no memory for ", triangles, kMemoryHint);
+    for (u32 i = 0; i < 3 * triangles; ++i) indices[i] = i;
+    if (triangles == 0) indices[0] = indices[1] = indices[2] = 0;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(s.scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(s.scene);
+    const RTCError error = rtcGetDeviceError(s.device);
+    HELIO_CHECK(error != RTC_ERROR_OUT_OF_MEMORY, "Embree has no memory for ", triangles, kMemoryHint);
+    HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", triangles, " triangles");
 }
 
 Visibility::~Visibility()
 {
     rtcReleaseScene(scene_->scene);
-    rtcReleaseScene(scene_->occluders);
     rtcReleaseDevice(scene_->device);
 }
 
@@ -238,7 +190,7 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal,
     RTCRay ray = makeRay(a, b - a, 1.0);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_->occluders, &context, &ray);
+    rtcOccluded1(scene_->scene, &context, &ray);
     return ray.tfar < 0.0f;
 }
 
@@ -248,7 +200,7 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& normal, con
                          double(std::numeric_limits<float>::infinity()));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_->occluders, &context, &ray);
+    rtcOccluded1(scene_->scene, &context, &ray);
     return ray.tfar < 0.0f;
 }
 
@@ -257,7 +209,7 @@ void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& 
 {
     HELIO_CHECK(blocked.size() == from.size(), blocked.size(), " places for ", from.size(), " rays");
     const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
-    traceShadows(scene_->occluders, std::numeric_limits<float>::infinity(), true, blocked,
+    traceShadows(scene_->scene, std::numeric_limits<float>::infinity(), true, blocked,
                  [&](size_t k) { return std::pair(from[k] + lift, direction); });
 }
 
@@ -267,7 +219,7 @@ void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& 
     HELIO_CHECK(blocked.size() == from.size() && to.size() == from.size(), from.size(), " and ", to.size(), " ends, ",
                 blocked.size(), " places");
     const glm::dvec3 lift = scene_->lift * fromNormal - scene_->origin, turn = scene_->lift * (toNormal - fromNormal);
-    traceShadows(scene_->occluders, 1.0f, false, blocked,
+    traceShadows(scene_->scene, 1.0f, false, blocked,
                  [&](size_t k) { return std::pair(from[k] + lift, to[k] - from[k] + turn); });
 }
 

@@ -23,8 +23,7 @@ struct RayHit
 class Visibility
 {
 public:
-    /// Triangulates every patch, and, for rays that ask only whether something is there, the highest planar nodes that
-    /// patches fill: fewer and larger triangles. Memory: about 200 bytes a triangle.
+    /// Triangulates every patch and builds the ray structure. Memory: about 200 bytes a triangle.
     explicit Visibility(const NodeTree& tree);
     ~Visibility();
     Visibility(const Visibility&) = delete;

@@ -123,8 +123,9 @@ std::vector<Polygon3> assembleLoops(std::vector<Ring3> loops, const glm::dvec3& 
     for (Ring3& hole : holes)
         for (Polygon3& polygon : polygons) {
             // A corner of the hole may touch the outline, so the majority of its corners decides.
-            const auto inside = std::count_if(hole.begin(), hole.end(),
-                                              [&](const glm::dvec3& p) { return isInside(p, {&polygon.outer, 1}, normal); });
+            const auto inside = std::count_if(hole.begin(), hole.end(), [&](const glm::dvec3& p) {
+                return isInside(p, {&polygon.outer, 1}, normal);
+            });
             if (polygons.size() > 1 && size_t(inside) * 2 <= hole.size()) continue;
             polygon.holes.push_back(std::move(hole));
             break;

@@ -46,7 +46,7 @@ glm::dvec3 vectorArea(std::span<const glm::dvec3> ring)
 bool isInside(const glm::dvec3& point, std::span<const Ring3> rings, const glm::dvec3& normal)
 {
     const glm::dvec3 n = glm::abs(normal);
-    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z >= n.x && n.z >= n.y ? 1 : 2;
+    const glm::length_t u = n.x >= n.y && n.x >= n.z ? 1 : 0, v = n.z > n.x && n.z > n.y ? 1 : 2;
     bool inside = false;
     for (const Ring3& ring : rings) {
         for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {

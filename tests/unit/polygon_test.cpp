@@ -112,3 +112,23 @@ TEST(Polygon, ContainsGoesByEvenAndOdd)
     EXPECT_FALSE(contains(angle, {5, 0.5}));
     EXPECT_FALSE(contains(angle, {-1, 0.5}));
 }
+
+TEST(IsInside, HoldsOnPlanesAtFortyFiveDegreesToTheAxes)
+{
+    // Two coordinates of the normal are equal there: the coordinate plane must still have two different axes.
+    const double s = std::sqrt(0.5), t = std::sqrt(1.0 / 3.0);
+    for (const glm::dvec3& normal :
+         {glm::dvec3(s, 0, s), glm::dvec3(-s, 0, s), glm::dvec3(s, s, 0), glm::dvec3(0, s, s), glm::dvec3(t, t, t),
+          glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)}) {
+        const PlaneFrame frame = planeFrame(normal);
+        const auto at = [&](double u, double v) { return u * frame.u + v * frame.v; };
+        const Ring3 square{at(-1, -1), at(1, -1), at(1, 1), at(-1, 1)};
+        const Ring3 hole{at(0, 0), at(0, 0.5), at(0.5, 0.5), at(0.5, 0)};
+        const std::vector<Ring3> rings{square, hole};
+        EXPECT_TRUE(isInside(at(-0.5, -0.4), rings, normal));
+        EXPECT_TRUE(isInside(at(0.9, 0.8), rings, normal));
+        EXPECT_FALSE(isInside(at(0.2, 0.3), rings, normal)) << "in the hole";
+        EXPECT_FALSE(isInside(at(1.2, 0.3), rings, normal));
+        EXPECT_FALSE(isInside(at(0.3, -1.1), rings, normal));
+    }
+}

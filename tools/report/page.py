@@ -165,9 +165,11 @@ def peers_section(data, made):
                          percent(f["bias"], 2, True), percent(f["p95"]), percent(f["max"], 0), percent(row.get("stated_noise"))])
     text.append(table(["program", "a face", "seconds", "processor, s", "rms, %", "bias, %", "P95, %", "max, %",
                        "standard error that it states, %"], rows))
+    points = [data, *data.get("finer", [])]
     rows = [[row["peer"], percent(row["error"]), f"{row['seconds']:.2f}", percent(row["measured"]),
              f"{row['ratio']:.0f} x relighting" if "ratio" in row else f"{row['ratio_of_bake']:.2f} x bake",
-             "never" if row["paid_after"] is None else row["paid_after"]] for row in data["at_equal_error"] + [r for point in data.get("finer", []) for r in point["at_equal_error"]]]
+             "never" if row["paid_after"] is None else row["paid_after"]]
+            for point in points for row in point["at_equal_error"]]
     text.append(table(["at equal error", "error, %", "seconds", "least error run, %", "ratio",
                        "suns after which the bake has paid"], rows))
     text.append('<p class="note">Seconds at equal error: time x error^2 is one number for plain sampling; it is taken from the '

@@ -43,7 +43,8 @@ def measure_scene(programs, scene, parts, options, report, notes, say):
     if "curves" in parts:
         say(f"{scene.title}: default")
         entry["default"] = measure.point(programs, scene, [], say, bench_repeats=3 if options.quick else 5)
-        entry.setdefault("curves", {}).update(measure.curves(programs, scene, say, options, notes, entry["default"]))
+        kept = entry.get("curves", {}) if options.methods else {}
+        entry["curves"] = {**kept, **measure.curves(programs, scene, say, options, notes, entry["default"])}
         report.save(programs)
     if "switches" in parts and (not options.quick or options.only or scene.name == "S"):
         threshold = (entry.get("default") or measure.point(programs, scene, [], say))["threshold"]

@@ -168,11 +168,12 @@ LinkTable refinedLinks(const NodeTree& tree, const Visibility& visibility, const
         return buildLinks(tree, visibility, training, frames, scan.rootPairs, link);
     });
     stats.pairsEvaluated = build.evaluated;
-    LinkTable coarse = linkTable(tree, build.coarse, options.jobs, slopes);
-    build.coarse = {};
     LinkTable links =
         steps.run("rows", [&](auto) { return linkTable(tree, build.links, options.jobs, std::move(slopes)); });
+    build.links = {};
     stats.predicted = steps.run("predicted error", [&](auto) {
+        const LinkTable coarse = linkTable(tree, build.coarse, options.jobs, links.childSlopes);
+        build.coarse = {};
         return predictError(tree, links, coarse, predictionLights(tree, visibility, scan.sky, options.jobs), split,
                             options.jobs);
     });

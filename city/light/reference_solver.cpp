@@ -19,13 +19,12 @@ double largest(const glm::dvec4& v)
 }
 
 /// The paper's misprint: each link brings the receiver's own radiosity.
-void gatherOwn(const NodeTree& tree, const LinkTable& links, const NodeLight& light,
-               std::vector<glm::dvec4>& irradiance)
+LinkTable ownLinks(const NodeTree& tree, const LinkTable& links)
 {
     LinkTable own = links;
     for (u32 i = 0; i < tree.nodeCount(); ++i)
         for (u32 k = links.rowBegin[i]; k < links.rowBegin[i + 1]; ++k) own.column[k] = i;
-    gatherLight(tree, own, light, 1, irradiance);
+    return own;
 }
 
 /// Per node, the corners of a box around the slope coordinates of the patches below.
@@ -109,12 +108,10 @@ Solution solveLight(const NodeTree& tree, const LinkTable& links, std::span<cons
     std::copy(first.begin(), first.end(), radiosity.begin());
     pullUp(tree, links, light);
     std::vector<glm::dvec4> irradiance;
-    const auto gather = [&] {
-        if (options.rule == UpdateRule::OwnRadiosity)
-            gatherOwn(tree, links, light, irradiance);
-        else
-            gatherLight(tree, links, light, 1, irradiance);
-    };
+    LinkTable own;
+    if (options.rule == UpdateRule::OwnRadiosity) own = ownLinks(tree, links);
+    const LinkTable& gathered = options.rule == UpdateRule::OwnRadiosity ? own : links;
+    const auto gather = [&] { gatherLight(tree, gathered, light, 1, irradiance); };
     for (u32 k = 0; k < options.maxSweeps; ++k) {
         gather();
         double changed = 0.0, reflected = 0.0;

@@ -76,6 +76,7 @@ struct Samples
 {
     std::vector<u8> points; ///< of each cell that lie on the patch, 0..4
     std::vector<u8> lit;    ///< [cell * suns + sun]: of these, those that the sun reaches
+    double total = 0.0;      ///< points of all cells
     std::vector<float> near; ///< 1/m, of each cell: sum over its points of 1 / distance along a cosine ray
 };
 
@@ -112,6 +113,7 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
         for (size_t p = 0; p < points.size(); ++p)
             if (!blocked[p]) ++s.lit[cellOf[p] * suns.size() + sun];
     }
+    s.total = double(points.size());
     s.near.assign(grid.cellCount(), 0.0f);
     const PlaneFrame frame = planeFrame(normal);
     for (u32 k = 0; k < points.size(); ++k) {
@@ -204,7 +206,7 @@ private:
             const Patch& p = tree_.patches[patch];
             area_ += p.area;
             if (samples_[patch].lit.empty()) continue;
-            const double total = pointsIn(patch, {0, 0, grids_[patch].nu, grids_[patch].nv});
+            const double total = samples_[patch].total;
             for (size_t s = 0; s < n && total > 0.0; ++s) {
                 double lit = 0.0;
                 for (u32 cell = 0; cell < grids_[patch].cellCount(); ++cell) lit += samples_[patch].lit[cell * n + s];
@@ -253,8 +255,7 @@ private:
         }
         const double width = grid.width * (b.x1 - b.x0) / grid.nu, height = grid.height * (b.y1 - b.y0) / grid.nv;
         const double size = std::max(width, height) * nearness;
-        const double all = pointsIn(patch, {0, 0, grid.nu, grid.nv});
-        return tree_.patches[patch].area * points / all * variance * std::min(1.0, size * size);
+        return tree_.patches[patch].area * points / s.total * variance * std::min(1.0, size * size);
     }
 
     /// The same inside the cells, which no cut can resolve.

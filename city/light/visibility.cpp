@@ -71,20 +71,29 @@ void setRay(RTCRay8& packet, size_t k, const glm::dvec3& origin, const glm::dvec
     packet.mask[k] = ~0u;
 }
 
+/// Fills a packet with rays first, first + 1, ... of `total` and marks those that are there in `valid`; places past the
+/// last one repeat it. ray(k): start and direction of ray k. Gives their number.
+template <class Ray>
+size_t fillPacket(RTCRay8& packet, int (&valid)[kWidth], size_t first, size_t total, float end, Ray&& ray)
+{
+    const size_t count = std::min(kWidth, total - first);
+    for (size_t k = 0; k < kWidth; ++k) {
+        valid[k] = k < count ? -1 : 0;
+        const auto [origin, direction] = ray(first + std::min(k, count - 1));
+        setRay(packet, k, origin, direction, end);
+    }
+    return count;
+}
+
 /// Shadow rays eight at a time: faster, since rays side by side go through the structure together. ray(k): start and
 /// direction of ray k.
 template <class Ray>
 void traceShadows(RTCScene scene, float end, bool coherent, std::span<bool> blocked, Ray&& ray)
 {
     for (size_t first = 0; first < blocked.size(); first += kWidth) {
-        const size_t count = std::min(kWidth, blocked.size() - first);
         alignas(32) RTCRay8 rays{};
         alignas(32) int valid[kWidth];
-        for (size_t k = 0; k < kWidth; ++k) {
-            valid[k] = k < count ? -1 : 0;
-            const auto [origin, direction] = ray(first + std::min(k, count - 1));
-            setRay(rays, k, origin, direction, end);
-        }
+        const size_t count = fillPacket(rays, valid, first, blocked.size(), end, ray);
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -244,13 +253,12 @@ void Visibility::trace(std::span<const glm::dvec3> from, const glm::dvec3& norma
                 direction.size(), " directions, ", hit.size(), " places");
     const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
     for (size_t first = 0; first < from.size(); first += kWidth) {
-        const size_t count = std::min(kWidth, from.size() - first);
         alignas(32) RTCRayHit8 packet{};
         alignas(32) int valid[kWidth];
+        const size_t count =
+            fillPacket(packet.ray, valid, first, from.size(), std::numeric_limits<float>::infinity(),
+                       [&](size_t k) { return std::pair(from[k] + lift, direction[k]); });
         for (size_t k = 0; k < kWidth; ++k) {
-            valid[k] = k < count ? -1 : 0;
-            const size_t ray = first + std::min(k, count - 1);
-            setRay(packet.ray, k, from[ray] + lift, direction[ray], std::numeric_limits<float>::infinity());
             packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
         }

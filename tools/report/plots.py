@@ -37,6 +37,18 @@ def plain_numbers(*parts):
         part.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
+def save_log_log(figure, axis, x, y, output, name):
+    """Finishes a plot with two logarithmic axes of these titles."""
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.set_xlabel(x)
+    axis.set_ylabel(y)
+    plain_numbers(axis.xaxis, axis.yaxis)
+    axis.legend(fontsize=8)
+    figure.tight_layout()
+    return save(figure, output, name)
+
+
 def rms_points(points, case, x):
     """x, rms, and how far one standard error of the reference's noise reaches below and above, in %."""
     rows = [(x(p), p["errors"][case]["E_indirect"]) for p in points if p["errors"].get(case, {}).get("E_indirect")]
@@ -88,14 +100,7 @@ def peer_plot(data, output):
     axis.plot([point["bake_seconds"] for point in ours], rms, "*-", color=COLOURS[BEST], markersize=14, linewidth=1,
               fillstyle="none", label="Heliopolis: bake, once")
     axis.axhline(rms[0], color=COLOURS[BEST], linewidth=0.6, linestyle=":")
-    axis.set_xscale("log")
-    axis.set_yscale("log")
-    axis.set_xlabel("seconds")
-    axis.set_ylabel("E_indirect, rms error, % of its mean")
-    plain_numbers(axis.xaxis, axis.yaxis)
-    axis.legend(fontsize=8)
-    figure.tight_layout()
-    return save(figure, output, "peers")
+    return save_log_log(figure, axis, "seconds", "E_indirect, rms error, % of its mean", output, "peers")
 
 
 def switch_plot(scene, name, output):
@@ -164,14 +169,7 @@ def prediction_plot(scenes, output):
     for factor in (0.5, 1, 2):
         axis.plot([low, high], [factor * low, factor * high], color="#888888", linewidth=0.8,
                   linestyle="-" if factor == 1 else ":")
-    axis.set_xscale("log")
-    axis.set_yscale("log")
-    axis.set_xlabel("predicted error, %")
-    axis.set_ylabel("measured rms of E_indirect, the worst light, %")
-    plain_numbers(axis.xaxis, axis.yaxis)
-    axis.legend(fontsize=8)
-    figure.tight_layout()
-    return save(figure, output, "prediction")
+    return save_log_log(figure, axis, "predicted error, %", "measured rms of E_indirect, the worst light, %", output, "prediction")
 
 
 def convergence_plot(rows, name, output):

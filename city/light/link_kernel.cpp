@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "city/base/lanes.h"
+
 namespace helio {
 namespace {
 
@@ -17,31 +19,34 @@ constexpr float kReceiverWeight = 4.0f;
 
 } // namespace
 
-float partExchange(const NodeParts& a, const NodeParts& b, const glm::vec3& between, const glm::vec3& normalA,
-                   const glm::vec3& normalB, PartMatrix& exchange)
+HELIO_LANES float partExchange(const NodeParts& a, const NodeParts& b, const glm::vec3& between,
+                               const glm::vec3& normalA, const glm::vec3& normalB, PartMatrix& exchange)
 {
     constexpr float kTiny = 1e-12f; // m2: keeps the quotient of coincident centroids finite
+    Float8 ax, ay, az, aArea, bx, by, bz, bArea;
+    load(ax, a.x);
+    load(ay, a.y);
+    load(az, a.z);
+    load(aArea, a.area);
+    load(bx, b.x);
+    load(by, b.y);
+    load(bz, b.z);
+    load(bArea, b.area);
     // All parts of a node lie in one plane, so a height depends on one of the two parts alone.
-    NodeParts::Row aHeight, bHeight;
     const float atA = -glm::dot(normalB, between), atB = glm::dot(normalA, between);
+    const Float8 aHigh = atA + normalB.x * ax + normalB.y * ay + normalB.z * az,
+                 bHigh = atB + normalA.x * bx + normalA.y * by + normalA.z * bz, zero{};
+    const Float8 aHeight = (aHigh > zero ? aHigh : zero) * aArea, bHeight = (bHigh > zero ? bHigh : zero) * bArea;
+    Float8 total{};
     for (u32 i = 0; i < kMost; ++i) {
-        aHeight[i] = std::max(0.0f, atA + normalB.x * a.x[i] + normalB.y * a.y[i] + normalB.z * a.z[i]) * a.area[i];
-        bHeight[i] = std::max(0.0f, atB + normalA.x * b.x[i] + normalA.y * b.y[i] + normalA.z * b.z[i]) * b.area[i];
+        const Float8 dx = between.x - ax[i] + bx, dy = between.y - ay[i] + by, dz = between.z - az[i] + bz;
+        const Float8 d2 = dx * dx + dy * dy + dz * dz + kTiny, own = zero + aArea[i];
+        const Float8 larger = own > bArea ? own : bArea;
+        const Float8 row = aHeight[i] * bHeight / (d2 * (std::numbers::pi_v<float> * d2 + larger));
+        store(exchange[i], row);
+        total += row;
     }
-    float total = 0.0f;
-    for (u32 i = 0; i < kMost; ++i) {
-        const float x = between.x - a.x[i], y = between.y - a.y[i], z = between.z - a.z[i];
-        float sum = 0.0f;
-        for (u32 j = 0; j < kMost; ++j) {
-            const float dx = x + b.x[j], dy = y + b.y[j], dz = z + b.z[j];
-            const float d2 = dx * dx + dy * dy + dz * dz + kTiny;
-            const float larger = std::max(a.area[i], b.area[j]);
-            exchange[i][j] = aHeight[i] * bHeight[j] / (d2 * (std::numbers::pi_v<float> * d2 + larger));
-        }
-        for (u32 j = 0; j < kMost; ++j) sum += exchange[i][j];
-        total += sum;
-    }
-    return total;
+    return sumOf(total);
 }
 
 PartMatrix transposed(const PartMatrix& matrix)
@@ -52,39 +57,34 @@ PartMatrix transposed(const PartMatrix& matrix)
     return result;
 }
 
-LinkError linkError(const NodeParts& receiver, const NodeParts& sender, const PartMatrix& exchange,
-                    const PartMatrix& open, float distance, float power, float slopePower)
+HELIO_LANES LinkError linkError(const NodeParts& receiver, const NodeParts& sender, const PartMatrix& exchange,
+                                const PartMatrix& open, float distance, float power, float slopePower)
 {
     LinkError e;
+    Float8 radius, inside, slopeX, slopeY;
+    load(radius, sender.radius);
+    load(inside, sender.inside);
+    load(slopeX, sender.slopeX);
+    load(slopeY, sender.slopeY);
     // How much the variance inside each part of the sender counts: with the square of its size over the distance.
-    NodeParts::Row near;
-    for (u32 j = 0; j < kMost; ++j) {
-        const float ratio = sender.radius[j] / std::max(distance, sender.radius[j] + 1e-6f);
-        near[j] = kInsidePartError * sender.inside[j];
-        near[j] *= ratio * ratio;
-    }
+    const Float8 least = radius + 1e-6f, far = Float8{} + distance, ratio = radius / (far > least ? far : least);
+    inside *= kInsidePartError;
+    const Float8 near = inside * ratio * ratio;
     NodeParts::Row received{}, momentX{}, momentY{};
     float total = 0.0f, area = 0.0f;
     for (u32 i = 0; i < receiver.count; ++i) {
-        const NodeParts::Row& g = exchange[i];
-        NodeParts::Row squares{};
-        for (u32 j = 0; j < kMost; ++j) {
-            const float mixed = open[i][j] * (1.0f - open[i][j]);
-            squares[j] = g[j] * g[j] * (near[j] + kInsidePartError * sender.inside[j] * mixed);
-        }
+        Float8 g, o;
+        load(g, exchange[i]);
+        load(o, open[i]);
         // Quadratic form of the deviations.
+        Float8 form{};
         for (u32 k = 0; k < sender.count; ++k) {
-            const NodeParts::Row& row = sender.deviation[k];
-            const float gk = g[k];
-            for (u32 j = 0; j < kMost; ++j) squares[j] += gk * row[j] * g[j];
+            Float8 row;
+            load(row, sender.deviation[k]);
+            form += exchange[i][k] * row;
         }
-        float sum = 0.0f, x = 0.0f, y = 0.0f, error = 0.0f;
-        for (u32 j = 0; j < kMost; ++j) {
-            sum += g[j];
-            x += g[j] * sender.slopeX[j];
-            y += g[j] * sender.slopeY[j];
-            error += squares[j];
-        }
+        const Float8 squares = g * (g * (near + inside * (o * (1.0f - o))) + form);
+        const float sum = sumOf(g), x = sumOf(g * slopeX), y = sumOf(g * slopeY);
         received[i] = sum;
         momentX[i] = x;
         momentY[i] = y;
@@ -92,7 +92,7 @@ LinkError linkError(const NodeParts& receiver, const NodeParts& sender, const Pa
         area += receiver.area[i];
         e.momentX += x;
         e.momentY += y;
-        e.sender += receiver.errorWeight[i] * std::max(0.0f, error);
+        e.sender += receiver.errorWeight[i] * std::max(0.0f, sumOf(squares));
     }
     if (receiver.count < 2) return e;
     const float mean = total / area, meanX = e.momentX / area, meanY = e.momentY / area;

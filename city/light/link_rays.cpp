@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "city/base/check.h"
 #include "city/base/hash.h"
+#include "city/light/cosine_directions.h"
 #include "city/light/sequence.h"
 
 namespace helio {
@@ -18,8 +18,8 @@ constexpr double kNearFactor = 0.1; // form factor from which on rays are aimed 
 
 } // namespace
 
-LinkRays::LinkRays(const NodeTree& tree, const Visibility& visibility, u64 seed)
-    : tree_(tree), visibility_(visibility), seed_(seed), plates_(tree.nodeCount())
+LinkRays::LinkRays(const NodeTree& tree, const Visibility& visibility, const Occluders& occluders, u64 seed)
+    : tree_(tree), visibility_(visibility), occluders_(occluders), seed_(seed), plates_(tree.nodeCount())
 {
     constexpr double kFilled = 1e-3; // share of the outline that may be missing
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
@@ -50,7 +50,17 @@ glm::dvec3 LinkRays::pointIn(u32 node, double u, double v) const
     return visibility_.pointOnPatch(node, u, v);
 }
 
-void LinkRays::shoot(std::span<const u32> from, std::span<const u32> to, u32 first, std::span<RayFate> fate) const
+void LinkRays::block(std::span<const glm::dvec3> from, const glm::dvec3& fromNormal, std::span<const glm::dvec3> to,
+                     const glm::dvec3& toNormal, Between between, std::span<bool> blocked) const
+{
+    if (between.known)
+        occluders_.block(between.nodes, from, to, blocked);
+    else
+        visibility_.areBlocked(from, fromNormal, to, toNormal, blocked);
+}
+
+void LinkRays::shoot(std::span<const u32> from, std::span<const u32> to, u32 first, Between between,
+                     std::span<RayFate> fate) const
 {
     HELIO_CHECK(from.size() == to.size() && from.size() == fate.size() && from.size() <= kMostRays, from.size(), ", ",
                 to.size(), ", ", fate.size(), " rays");
@@ -70,12 +80,11 @@ void LinkRays::shoot(std::span<const u32> from, std::span<const u32> to, u32 fir
         if (glm::dot(na, d) <= 0.0 || glm::dot(nb, d) >= 0.0) continue;
         ray[count++] = k;
     }
-    visibility_.areBlocked(std::span(a).first(count), na, std::span(b).first(count), nb,
-                           std::span(blocked).first(count));
+    block(std::span(a).first(count), na, std::span(b).first(count), nb, between, std::span(blocked).first(count));
     for (u32 k = 0; k < count; ++k) fate[ray[k]] = blocked[k] ? RayFate::Blocked : RayFate::Open;
 }
 
-void LinkRays::shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& shift, u32 rays) const
+void LinkRays::shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& shift, u32 rays, Between between) const
 {
     const glm::dvec3 &na = tree_.nodes[a].normal, &nb = tree_.nodes[b].normal;
     std::array<glm::dvec3, kMostRays> p, q;
@@ -91,8 +100,7 @@ void LinkRays::shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& sh
         if (ca <= 0.0 || cb <= 0.0) continue;
         kernel[count++] = ca * cb / (d2 * d2);
     }
-    visibility_.areBlocked(std::span(p).first(count), na, std::span(q).first(count), nb,
-                           std::span(blocked).first(count));
+    block(std::span(p).first(count), na, std::span(q).first(count), nb, between, std::span(blocked).first(count));
     for (u32 k = 0; k < count; ++k) {
         ++tally.rays;
         tally.weight += kernel[k];
@@ -110,9 +118,7 @@ void LinkRays::shootNear(Tally& tally, u32 small, u32 large, const std::array<u3
     const u32 end = tally.rays + rays;
     for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && tally.rays < end; --tries, ++tally.next) {
         const std::array<double, 4> x = shiftedSobol4(tally.next, shift);
-        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-        const glm::dvec3 direction =
-            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
+        const glm::dvec3 direction = cosineDirection(frame, x[0], x[1]);
         const double facing = -glm::dot(other, direction);
         if (facing <= 0.0) continue;
         const glm::dvec3 p = pointIn(small, x[2], x[3]);
@@ -126,7 +132,8 @@ void LinkRays::shootNear(Tally& tally, u32 small, u32 large, const std::array<u3
     }
 }
 
-OpenShare LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double strength, u32 known) const
+OpenShare LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double strength, const KnownRays& known,
+                              Between between) const
 {
     const std::array<u32, 4> shift = digitalShift(mixSeed(mixSeed(seed_, a), b));
     const bool swap = tree_.nodes[b].area < tree_.nodes[a].area;
@@ -138,11 +145,11 @@ OpenShare LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double st
         if (near)
             shootNear(tally, small, large, shift, batch);
         else
-            shootFar(tally, a, b, shift, batch);
+            shootFar(tally, a, b, shift, batch, between);
         asked += batch;
         const double open = tally.weight > 0.0 ? tally.open / tally.weight : 0.0;
-        const bool agree = open <= 0.0 || open >= 1.0;
-        const double n = double(tally.rays + (agree ? known : 0)) + 2.0;
+        const u32 agreeing = open >= 1.0 ? known.open : open <= 0.0 ? known.blocked : 0;
+        const double n = double(tally.rays + agreeing) + 2.0;
         const bool enough = tally.rays > 0 && strength * (open * (1.0 - open) / n + 1.0 / (n * n)) <= 1.0;
         if (enough || asked >= kEnoughRays) return {open, tally.rays};
     }

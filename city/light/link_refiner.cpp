@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "city/base/lanes.h"
+
 namespace helio {
 namespace {
 
@@ -20,6 +22,7 @@ constexpr float kExactDistance = 1.25f; // in sums of radii: nearer parts exchan
 constexpr u32 kFirstRays = 16;          // of a pair of which nothing is known
 constexpr u32 kKnown = 24;              // rays of the pairs above, all open or all blocked, after which few more do
 constexpr u32 kFewRays = 2;
+constexpr size_t kMostBetween = 256;
 constexpr u32 kWholeRays = 8; // of a link that is not judged by its parts
 
 double squaredRatio(double a, double b)
@@ -29,11 +32,11 @@ double squaredRatio(double a, double b)
 
 } // namespace
 
-const NodeParts& LinkRefiner::partsOf(u32 node, NodeParts& leaf) const
+const NodeParts& LinkRefiner::partsOf(u32 node)
 {
     if (!s_.tree.isLeaf(node)) return s_.parts[node - s_.tree.patchCount()];
-    leaf = leafParts(s_.tree, s_.transfer, s_.weight, node);
-    return leaf;
+    if (leaf_.count == 0 || leaf_.node[0] != node) putLeaf(s_.tree, s_.transfer, s_.weight, node, leaf_);
+    return leaf_;
 }
 
 double LinkRefiner::strength(u32 receiver, u32 sender, double exchange) const
@@ -51,6 +54,9 @@ void LinkRefiner::link(u32 direction, Directions directions, const NodeLink& lin
 void LinkRefiner::weighNearParts(Pair& pair) const
 {
     const NodeParts &a = *pair.partsA, &b = *pair.partsB;
+    if (double(pair.distance) >
+        (1.0 + double(kExactDistance)) * (s_.transfer.radius(pair.a) + s_.transfer.radius(pair.b)))
+        return; // the parts are as far from each other
     const glm::vec3 between(s_.tree.nodes[pair.b].centroid - s_.tree.nodes[pair.a].centroid);
     pair.total = 0.0f;
     for (u32 i = 0; i < a.count; ++i) {
@@ -66,7 +72,7 @@ void LinkRefiner::weighNearParts(Pair& pair) const
     }
 }
 
-void LinkRefiner::look(Pair& pair, u32 rays) const
+void LinkRefiner::look(Pair& pair, u32 rays, const Sight& sight) const
 {
     const NodeParts &a = *pair.partsA, &b = *pair.partsB;
     std::array<u32, LinkRays::kMostRays> cell;
@@ -91,7 +97,8 @@ void LinkRefiner::look(Pair& pair, u32 rays) const
         from[k] = a.node[cell[k] / kParts];
         to[k] = b.node[cell[k] % kParts];
     }
-    s_.rays.shoot(std::span(from).first(count), std::span(to).first(count), pair.shot, std::span(fate).first(count));
+    s_.rays.shoot(std::span(from).first(count), std::span(to).first(count), pair.shot, betweenOf(sight),
+                  std::span(fate).first(count));
     pair.shot += count;
     for (u32 k = 0; k < count; ++k) {
         if (fate[k] == RayFate::Missed) continue;
@@ -99,53 +106,53 @@ void LinkRefiner::look(Pair& pair, u32 rays) const
         pair.asked[cell[k] / kParts][cell[k] % kParts] += 1.0f;
         if (fate[k] == RayFate::Open) pair.seen[cell[k] / kParts][cell[k] % kParts] += 1.0f;
     }
-    weighRays(pair);
+    weighRays(pair, sight.rays);
 }
 
-void LinkRefiner::weighRays(Pair& pair)
+HELIO_LANES void LinkRefiner::weighRays(Pair& pair, const KnownRays& above)
 {
-    NodeParts::Row rowSeen{}, rowAsked{}, columnSeen{}, columnAsked{};
-    float seen = 0.0f, asked = 0.0f;
+    NodeParts::Row rowSeen, rowAsked;
+    Float8 columnSeen{}, columnAsked{}, row;
     for (u32 i = 0; i < kParts; ++i) {
-        for (u32 j = 0; j < kParts; ++j) {
-            rowSeen[i] += pair.seen[i][j];
-            rowAsked[i] += pair.asked[i][j];
-            columnSeen[j] += pair.seen[i][j];
-            columnAsked[j] += pair.asked[i][j];
-        }
-        seen += rowSeen[i];
-        asked += rowAsked[i];
+        load(row, pair.seen[i]);
+        columnSeen += row;
+        rowSeen[i] = sumOf(row);
+        load(row, pair.asked[i]);
+        columnAsked += row;
+        rowAsked[i] = sumOf(row);
     }
-    const float mean = asked > 0.0f ? seen / asked : 1.0f;
+    const float seen = sumOf(columnSeen), asked = sumOf(columnAsked);
+    const float mean = asked > 0.0f ? seen / asked : above.blocked > 0 ? 0.0f : 1.0f;
     if (mean <= 0.0f || mean >= 1.0f) {
-        for (NodeParts::Row& row : pair.open) row.fill(mean);
+        for (NodeParts::Row& open : pair.open) open.fill(mean);
         pair.mean = double(mean);
         return;
     }
     // A pair of parts sees what its own rays say, drawn by one ray's worth towards what its row and column say.
-    for (u32 j = 0; j < kParts; ++j) {
-        rowSeen[j] = (rowSeen[j] + mean) / (rowAsked[j] + 1.0f);
-        columnSeen[j] = (columnSeen[j] + mean) / (columnAsked[j] + 1.0f) / mean;
-    }
+    const Float8 one = Float8{} + 1.0f, byColumn = (columnSeen + mean) / (columnAsked + 1.0f) / mean;
     double visible = 0.0;
     for (u32 i = 0; i < kParts; ++i) {
-        float sum = 0.0f;
-        for (u32 j = 0; j < kParts; ++j) {
-            const float guess = std::min(1.0f, rowSeen[i] * columnSeen[j]);
-            pair.open[i][j] = (pair.seen[i][j] + guess) / (pair.asked[i][j] + 1.0f);
-        }
-        for (u32 j = 0; j < kParts; ++j) sum += pair.exchange[i][j] * pair.open[i][j];
-        visible += double(sum);
+        Float8 ownSeen, ownAsked, exchange;
+        load(ownSeen, pair.seen[i]);
+        load(ownAsked, pair.asked[i]);
+        load(exchange, pair.exchange[i]);
+        const Float8 said = (rowSeen[i] + mean) / (rowAsked[i] + 1.0f) * byColumn, guess = said < one ? said : one;
+        const Float8 open = (ownSeen + guess) / (ownAsked + 1.0f);
+        store(pair.open[i], open);
+        visible += double(sumOf(exchange * open));
     }
     pair.mean = visible / double(pair.total);
 }
 
-LinkRefiner::Sight LinkRefiner::sightOf(Pair& pair, Sight above)
+LinkRefiner::Sight LinkRefiner::sightOf(Pair& pair, const Sight& above)
 {
-    Sight sight;
-    if (pair.mean >= 1.0) sight.open = above.open + pair.rays;
-    if (pair.mean <= 0.0) sight.blocked = above.blocked + pair.rays;
-    pair.known = std::max({pair.rays, sight.open, sight.blocked});
+    Sight sight = above;
+    if (pair.rays > 0) {
+        sight.rays = {};
+        if (pair.mean >= 1.0) sight.rays.open = above.rays.open + pair.rays;
+        if (pair.mean <= 0.0) sight.rays.blocked = above.rays.blocked + pair.rays;
+    }
+    pair.known = std::max(pair.rays, sight.known());
     return sight;
 }
 
@@ -153,8 +160,12 @@ LinkRefiner::Verdict LinkRefiner::judge(const Pair& pair, bool toA) const
 {
     const u32 receiver = toA ? pair.a : pair.b, sender = toA ? pair.b : pair.a;
     PartMatrix exchange;
-    for (u32 i = 0; i < kParts; ++i)
-        for (u32 j = 0; j < kParts; ++j) exchange[i][j] = pair.exchange[i][j] * pair.open[i][j];
+    for (u32 i = 0; i < kParts; ++i) {
+        Float8 whole, open;
+        load(whole, pair.exchange[i]);
+        load(open, pair.open[i]);
+        store(exchange[i], whole * open);
+    }
     const Training& training = s_.training;
     Verdict v;
     v.error = toA ? linkError(*pair.partsA, *pair.partsB, exchange, pair.open, pair.distance, training.power[sender],
@@ -162,8 +173,9 @@ LinkRefiner::Verdict LinkRefiner::judge(const Pair& pair, bool toA) const
                   : linkError(*pair.partsB, *pair.partsA, transposed(exchange), transposed(pair.open), pair.distance,
                               training.power[sender], training.slopePower[sender]);
     const double n = double(pair.known) + 2.0;
-    v.visibilityError =
-        strength(receiver, sender, double(pair.total)) * (pair.mean * (1.0 - pair.mean) / n + 1.0 / (n * n));
+    v.visibilityError = pair.clear ? 0.0
+                                   : strength(receiver, sender, double(pair.total)) *
+                                         (pair.mean * (1.0 - pair.mean) / n + 1.0 / (n * n));
     const double error = double(v.error.sender) + double(v.error.receiver) + kVisibilityError * v.visibilityError;
     const bool mayEnd = (!s_.leafReceivers && !pair.touches) || s_.tree.isLeaf(receiver);
     v.good = mayEnd && error <= s_.tolerance;
@@ -177,12 +189,11 @@ bool LinkRefiner::isFaint(u32 receiver, u32 sender, double exchange) const
            kWholeLinkError * strength(receiver, sender, exchange) <= s_.tolerance;
 }
 
-u32 LinkRefiner::faintDirections(const Pair& pair) const
+u32 LinkRefiner::faintDirections(u32 a, u32 b, double distance, double exchange) const
 {
     // Only between nodes that are far apart does the whole exchange say how large its parts can be.
-    if (double(pair.distance) <= kFarDistance * (s_.transfer.radius(pair.a) + s_.transfer.radius(pair.b))) return 0;
-    const double total = double(pair.total);
-    return (isFaint(pair.a, pair.b, total) ? kToA : 0) | (isFaint(pair.b, pair.a, total) ? kToB : 0);
+    if (distance <= kFarDistance * (s_.transfer.radius(a) + s_.transfer.radius(b))) return 0;
+    return (isFaint(a, b, exchange) ? kToA : 0) | (isFaint(b, a, exchange) ? kToB : 0);
 }
 
 bool LinkRefiner::isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sight) const
@@ -194,7 +205,8 @@ bool LinkRefiner::isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sigh
     if ((directions & kToA) != 0 && strength(pair.a, pair.b, total) * ratio <= limit) return false;
     if ((directions & kToB) != 0 && strength(pair.b, pair.a, total) * ratio <= limit) return false;
     // Only a pair that sees something: what is blocked is better judged as a whole.
-    return sight.open > 0 || s_.rays.openShare(pair.a, pair.b, total, kWholeRays, 0.0, 0).open > 0.0;
+    return sight.isClear() || sight.rays.open > 0 ||
+           s_.rays.openShare(pair.a, pair.b, total, kWholeRays, 0.0, {}, betweenOf(sight)).open > 0.0;
 }
 
 void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, Directions directions, Sight sight)
@@ -202,11 +214,14 @@ void LinkRefiner::linkWhole(u32 a, u32 b, double transfer, Directions directions
     double power = 0.0;
     if ((directions.fine & kToA) != 0) power = std::max(power, strength(a, b, transfer));
     if ((directions.fine & kToB) != 0) power = std::max(power, strength(b, a, transfer));
-    // Where the pairs above were wholly open or blocked a few rays are enough.
-    const u32 known = std::max(sight.open, sight.blocked);
-    const OpenShare share = s_.rays.openShare(a, b, transfer, known >= kKnown ? kFewRays : kWholeRays,
-                                              kVisibilityError * power / s_.tolerance, known);
-    const double open = share.rays > 0 ? share.open : sight.blocked > 0 ? 0.0 : 1.0;
+    double open = 1.0;
+    if (!sight.isClear()) {
+        // Where the pairs above were wholly open or blocked a few rays are enough.
+        const OpenShare share =
+            s_.rays.openShare(a, b, transfer, sight.known() >= kKnown ? kFewRays : kWholeRays,
+                              kVisibilityError * power / s_.tolerance, sight.rays, betweenOf(sight));
+        open = share.rays > 0 ? share.open : sight.rays.blocked > 0 ? 0.0 : 1.0;
+    }
     const double exchange = transfer * open;
     link(kToA, directions, {a, b, float(exchange / s_.tree.nodes[a].area)});
     link(kToB, directions, {b, a, float(exchange / s_.tree.nodes[b].area)});
@@ -216,11 +231,11 @@ void LinkRefiner::linkOrOpen(u32 a, u32 b, Directions directions, Sight sight)
 {
     const double transfer = s_.transfer.between(a, b);
     if (transfer <= 0.0) return;
-    const u32 faint = (isFaint(a, b, transfer) ? kToA : 0) | (isFaint(b, a, transfer) ? kToB : 0);
+    const u32 faint =
+        faintDirections(a, b, glm::distance(s_.tree.nodes[a].centroid, s_.tree.nodes[b].centroid), transfer);
     if ((directions.fine & faint) != 0) linkWhole(a, b, transfer, directions.only(faint), sight);
     const Directions open = directions.only(~faint);
-    const bool splitA =
-        s_.tree.isLeaf(b) || (!s_.tree.isLeaf(a) && s_.transfer.radius(a) >= s_.transfer.radius(b));
+    const bool splitA = s_.tree.isLeaf(b) || (!s_.tree.isLeaf(a) && s_.transfer.radius(a) >= s_.transfer.radius(b));
     split(a, b, splitA ? open : Directions{}, splitA ? Directions{} : open, sight);
 }
 
@@ -247,9 +262,8 @@ LinkRefiner::Directions LinkRefiner::linkGood(const Pair& pair, const Verdict& t
         const double transfer = s_.transfer.between(pair.a, pair.b), scale = transfer / double(pair.total);
         const auto linkOf = [&](u32 receiver, u32 sender, const LinkError& error) {
             const double area = s_.tree.nodes[receiver].area;
-            return NodeLink{
-                receiver, sender, float(transfer * pair.mean / area),
-                glm::vec2(scale * double(error.momentX) / area, scale * double(error.momentY) / area)};
+            return NodeLink{receiver, sender, float(transfer * pair.mean / area),
+                            glm::vec2(scale * double(error.momentX) / area, scale * double(error.momentY) / area)};
         };
         link(kToA, now, linkOf(pair.a, pair.b, toA.error));
         link(kToB, now, linkOf(pair.b, pair.a, toB.error));
@@ -257,30 +271,56 @@ LinkRefiner::Directions LinkRefiner::linkGood(const Pair& pair, const Verdict& t
     return {directions.fine & ~now.fine, directions.coarse & ~now.coarse};
 }
 
-void LinkRefiner::refine(u32 nodeA, u32 nodeB, Directions directions, Sight sight)
+LinkRays::Between LinkRefiner::betweenOf(const Sight& sight) const
+{
+    return {std::span(between_).subspan(sight.begin, sight.end - sight.begin), sight.listed};
+}
+
+void LinkRefiner::refine(u32 a, u32 b)
+{
+    between_.clear();
+    Sight sight;
+    sight.listed = s_.occluders.find(a, b, kMostBetween, between_);
+    sight.end = between_.size();
+    refineSeen(a, b, {kToA | kToB, kToA | kToB}, sight);
+}
+
+void LinkRefiner::refine(u32 a, u32 b, Directions directions, Sight sight)
+{
+    if (!s_.transfer.faceEachOther(a, b)) return;
+    const size_t mark = between_.size();
+    if (sight.listed) {
+        s_.occluders.narrow(a, b, sight.begin, sight.end, between_);
+        sight.begin = mark;
+        sight.end = between_.size();
+    }
+    refineSeen(a, b, directions, sight);
+    between_.resize(mark);
+}
+
+void LinkRefiner::refineSeen(u32 nodeA, u32 nodeB, Directions directions, Sight sight)
 {
     ++evaluated_;
     const NodeTree& tree = s_.tree;
-    if (!s_.transfer.faceEachOther(nodeA, nodeB)) return;
     const bool leafA = tree.isLeaf(nodeA), leafB = tree.isLeaf(nodeB);
     if (leafA && leafB) {
         const double transfer = s_.transfer.between(nodeA, nodeB);
         if (transfer > 0.0) linkWhole(nodeA, nodeB, transfer, directions, sight);
         return;
     }
-    NodeParts leaf;
     Pair pair;
     pair.a = nodeA;
     pair.b = nodeB;
-    pair.partsA = &partsOf(nodeA, leaf);
-    pair.partsB = &partsOf(nodeB, leaf);
+    pair.partsA = &partsOf(nodeA);
+    pair.partsB = &partsOf(nodeB);
     const glm::vec3 between(tree.nodes[nodeB].centroid - tree.nodes[nodeA].centroid);
     pair.distance = glm::length(between);
     pair.total = partExchange(*pair.partsA, *pair.partsB, between, glm::vec3(tree.nodes[nodeA].normal),
                               glm::vec3(tree.nodes[nodeB].normal), pair.exchange);
     // Where no centroid faces another, what there is stands at the horizon.
     if (pair.total <= 0.0f) return linkOrOpen(nodeA, nodeB, directions, sight);
-    if ((faintDirections(pair) & directions.fine) == directions.fine) {
+    if ((faintDirections(nodeA, nodeB, double(pair.distance), double(pair.total)) & directions.fine) ==
+        directions.fine) {
         linkWhole(nodeA, nodeB, s_.transfer.between(nodeA, nodeB), directions, sight);
         return;
     }
@@ -293,10 +333,16 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB, Directions directions, Sight sigh
         split(nodeA, nodeB, splitA ? directions : Directions{}, splitA ? Directions{} : directions, sight);
         return;
     }
-    const u32 known = std::max(sight.open, sight.blocked);
     weighNearParts(pair);
     if (pair.total <= 0.0f) return linkOrOpen(nodeA, nodeB, directions, sight);
-    look(pair, known == 0 ? kFirstRays : known < kKnown ? kWholeRays : kFewRays);
+    pair.clear = sight.isClear();
+    if (pair.clear) {
+        for (NodeParts::Row& row : pair.open) row.fill(1.0f);
+    } else {
+        const u32 known = sight.known();
+        pair.seen = pair.asked = {};
+        look(pair, known == 0 ? kFirstRays : known < kKnown ? kWholeRays : kFewRays, sight);
+    }
     Sight below = sightOf(pair, sight);
     Verdict toA, toB;
     const auto judgeBoth = [&] {
@@ -308,7 +354,7 @@ void LinkRefiner::refine(u32 nodeA, u32 nodeB, Directions directions, Sight sigh
     const bool mixed = pair.mean > 0.0 && pair.mean < 1.0;
     const auto isUnsure = [&](const Verdict& v) { return v.good && (mixed || v.visibilityError > s_.tolerance); };
     if (isUnsure(toA) || isUnsure(toB)) {
-        for (u32 k = 0; k < s_.raysPerPart; ++k) look(pair, 0);
+        for (u32 k = 0; k < s_.raysPerPart; ++k) look(pair, 0, sight);
         below = sightOf(pair, sight);
         judgeBoth();
     }

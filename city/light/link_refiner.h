@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <algorithm>
 #include <array>
 
 #include "city/light/link_kernel.h"
 #include "city/light/link_rays.h"
 #include "city/light/links.h"
+#include "city/light/occluders.h"
 
 namespace helio {
 
@@ -15,6 +17,7 @@ struct RefinerScene
     const Training& training;
     const Transfer& transfer;
     const LinkRays& rays;
+    const Occluders& occluders;
     std::span<const NodeParts> parts; ///< nodeParts()
     std::span<const double> weight;   ///< per node, 1/m2: what a squared error of irradiance on a square metre counts
     double tolerance = 0.0;           ///< largest weighted squared error of a link (radiosity: area mean 1)
@@ -33,19 +36,24 @@ public:
 
     /// Appends the links between two planar nodes, neither an ancestor of the other, and all that is below them, in
     /// both directions.
-    void refine(u32 a, u32 b) { refine(a, b, {kToA | kToB, kToA | kToB}, Sight{}); }
+    void refine(u32 a, u32 b);
 
     std::vector<NodeLink> takeLinks() { return std::move(links_); }
-    /// The links that a larger epsilon would have left, which the refinement passes on its way: what the two sets
-    /// differ by tells the error of the finer one.
+    /// About the links that a larger epsilon would have left, which the refinement passes on its way (pairs too faint
+    /// to be looked at are linked in both sets alike): what the two sets differ by tells the error of the finer one.
     std::vector<NodeLink> takeCoarseLinks() { return std::move(coarseLinks_); }
     u64 evaluated() const { return evaluated_; }
 
 private:
-    /// What the pairs above a pair say of it: rays that were all open, or all blocked; none if they were mixed.
+    /// What the pairs above a pair say of it.
     struct Sight
     {
-        u32 open = 0, blocked = 0;
+        KnownRays rays;      ///< none if they were mixed
+        bool listed = false; ///< what may stand between is known: places [begin, end) of between_
+        size_t begin = 0, end = 0;
+
+        bool isClear() const { return listed && begin == end; }
+        u32 known() const { return std::max(rays.open, rays.blocked); }
     };
 
     /// In which directions a pair still has no link; where it has no coarse one it has no fine one either.
@@ -65,10 +73,11 @@ private:
         float distance = 0.0f; // m, of the centroids
         float total = 0.0f;    // m2, of `exchange`
         PartMatrix exchange;   // m2, without occlusion, [part of a][part of b]
-        PartMatrix seen{};     // rays that met nothing
-        PartMatrix asked{};    // rays that joined points which face each other
+        PartMatrix seen;       // rays that met nothing
+        PartMatrix asked;      // rays that joined points which face each other
         PartMatrix open;       // visible share that they tell
         double mean = 1.0;     // of `open`, weighted with the exchange
+        bool clear = false;    // for sure
         /// Parts are so near that a patch below them may see the other node quite differently from what the rays of the
         /// whole tell: no link ends at a node that is not a patch.
         bool touches = false;
@@ -86,23 +95,26 @@ private:
         bool goodCoarse = false; // under the coarse links' tolerance
     };
 
-    const NodeParts& partsOf(u32 node, NodeParts& leaf) const;
+    const NodeParts& partsOf(u32 node);
     void refine(u32 a, u32 b, Directions directions, Sight sight);
+    void refineSeen(u32 a, u32 b, Directions directions, Sight sight);
     /// Puts the exact exchange where parts are so near that points do not tell it.
     void weighNearParts(Pair& pair) const;
     /// `rays` more rays, spread over the parts by what they exchange; 0: one more for each pair of parts.
-    void look(Pair& pair, u32 rays) const;
-    static void weighRays(Pair& pair);
+    void look(Pair& pair, u32 rays, const Sight& sight) const;
+    /// What the pair's rays say of its parts; where all of them missed, what those above say.
+    static void weighRays(Pair& pair, const KnownRays& above);
     /// What the pair's rays and those of the pairs above say together.
-    static Sight sightOf(Pair& pair, Sight above);
+    static Sight sightOf(Pair& pair, const Sight& above);
     Verdict judge(const Pair& pair, bool toA) const;
     bool splitsReceiver(const Verdict& verdict, bool touches, u32 receiver, u32 sender) const;
     /// Weighted squared irradiance of the receiver: the error if nothing were known of the sender.
     double strength(u32 receiver, u32 sender, double exchange) const;
     /// Whether a link of this exchange is accurate enough whatever happens inside its nodes.
     bool isFaint(u32 receiver, u32 sender, double exchange) const;
-    u32 faintDirections(const Pair& pair) const;
+    u32 faintDirections(u32 a, u32 b, double distance, double exchange) const;
     bool isSurelyTooCoarse(const Pair& pair, u32 directions, Sight sight) const;
+    LinkRays::Between betweenOf(const Sight& sight) const;
     /// A link of one direction, into the sets that `directions` leaves open.
     void link(u32 direction, Directions directions, const NodeLink& link);
     void linkWhole(u32 a, u32 b, double transfer, Directions directions, Sight sight);
@@ -115,6 +127,8 @@ private:
 
     const RefinerScene& s_;
     std::vector<NodeLink> links_, coarseLinks_;
+    NodeParts leaf_;           ///< of the pair at hand: two leaves are not judged by parts
+    std::vector<u32> between_; ///< a stack: what may stand between the pairs at hand
     u64 evaluated_ = 0;
 };
 

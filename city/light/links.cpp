@@ -61,11 +61,13 @@ LinkBuild buildLinks(const NodeTree& tree, const Visibility& visibility, const T
     const Transfer transfer(tree);
     const std::vector<double> weight = errorWeights(tree);
     const std::vector<NodeParts> parts = nodeParts(tree, training, transfer, frames, weight, options.jobs);
-    const LinkRays rays(tree, visibility, options.seed);
+    const Occluders occluders(tree, visibility);
+    const LinkRays rays(tree, visibility, occluders, options.seed);
     const RefinerScene scene{.tree = tree,
                              .training = training,
                              .transfer = transfer,
                              .rays = rays,
+                             .occluders = occluders,
                              .parts = parts,
                              .weight = weight,
                              .tolerance = options.epsilon * options.epsilon,

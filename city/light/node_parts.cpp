@@ -88,13 +88,11 @@ std::vector<NodeParts> nodeParts(const NodeTree& tree, const Training& training,
     return all;
 }
 
-NodeParts leafParts(const NodeTree& tree, const Transfer& transfer, std::span<const double> weight, u32 leaf)
+void putLeaf(const NodeTree& tree, const Transfer& transfer, std::span<const double> weight, u32 leaf, NodeParts& parts)
 {
-    NodeParts parts;
     parts.node[0] = leaf;
     parts.count = 1;
     describePart(tree, transfer, weight, leaf, 0, parts);
-    return parts;
 }
 
 } // namespace helio

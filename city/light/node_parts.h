@@ -35,7 +35,8 @@ struct NodeParts
 std::vector<NodeParts> nodeParts(const NodeTree& tree, const Training& training, const Transfer& transfer,
                                  std::span<const SlopeFrame> frames, std::span<const double> weight, u32 jobs);
 
-/// A leaf as its only part.
-NodeParts leafParts(const NodeTree& tree, const Transfer& transfer, std::span<const double> weight, u32 leaf);
+/// Puts a leaf, as its only part, into parts that are empty or hold another leaf.
+void putLeaf(const NodeTree& tree, const Transfer& transfer, std::span<const double> weight, u32 leaf,
+             NodeParts& parts);
 
 } // namespace helio

@@ -13,6 +13,7 @@
 #include "city/base/check.h"
 #include "city/base/hash.h"
 #include "city/base/parallel.h"
+#include "city/light/cosine_directions.h"
 #include "city/light/sequence.h"
 #include "shaders/shared/disc.h"
 
@@ -26,12 +27,6 @@ constexpr double kRouletteWeight = 0.25; // half of what a light facade reflects
 double largest(const glm::dvec4& v)
 {
     return std::max(std::max(v.x, v.y), std::max(v.z, v.w));
-}
-
-glm::dvec3 cosineDirection(const PlaneFrame& frame, double x, double y)
-{
-    const double r = std::sqrt(x), phi = 2.0 * std::numbers::pi * y;
-    return r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x) * frame.normal;
 }
 
 /// Mean of the groups so far and the sum of squares about it (Welford 1962).

@@ -15,7 +15,7 @@ namespace {
 /// Error of links / their difference to those of a fourfold epsilon, which err about 2.2 times as much.
 constexpr double kLinkErrorOfDifference = 0.5;
 constexpr double kErrorOfUnresolved = 0.5; // of E_indirect / SplitRecord::unresolved, where no cut tells it
-constexpr u32 kSweeps = 5; // leave about a thousandth of the indirect light, alike in all solutions
+constexpr u32 kSweeps = 5;                 // leave about a thousandth of the indirect light, alike in all solutions
 constexpr u32 kRaysPerSun = 16;
 constexpr std::array<u32, 3> kSuns{3, 10, 17}; // of 20 training suns
 
@@ -79,13 +79,11 @@ double overSuns(const glm::dvec4& error)
 std::vector<glm::dvec4> predictionLights(const NodeTree& tree, const Visibility& visibility, std::span<const float> sky,
                                          u32 jobs)
 {
-    const std::vector<glm::dvec3> suns = trainingSuns(20);
+    const std::vector<glm::dvec3> all = trainingSuns(20);
+    const std::array<glm::dvec3, 3> suns{all[kSuns[0]], all[kSuns[1]], all[kSuns[2]]};
+    const std::vector<std::vector<double>> share = raySuns(tree, visibility, suns, kRaysPerSun, jobs);
     std::vector<glm::dvec4> direct(tree.patchCount());
-    for (u32 i = 0; i < tree.patchCount(); ++i) direct[i].w = double(sky[i]);
-    for (u32 c = 0; c < kSuns.size(); ++c) {
-        const std::vector<double> sun = raySun(tree, visibility, suns[kSuns[c]], kRaysPerSun, jobs);
-        for (u32 i = 0; i < tree.patchCount(); ++i) direct[i][glm::length_t(c)] = sun[i];
-    }
+    for (u32 i = 0; i < tree.patchCount(); ++i) direct[i] = {share[0][i], share[1][i], share[2][i], double(sky[i])};
     return direct;
 }
 
@@ -108,8 +106,8 @@ PredictedError predictError(const NodeTree& tree, const LinkTable& links, const 
                  resolved = split.unresolvedWhole * split.unresolvedWhole - left;
     glm::dvec4 byPatches(kErrorOfUnresolved * split.unresolved);
     if (resolved > left)
-        byPatches = std::sqrt(left / resolved) *
-                    difference(area, fine, solve(tree, links, direct, split, split.wholeOf, jobs));
+        byPatches =
+            std::sqrt(left / resolved) * difference(area, fine, solve(tree, links, direct, split, split.wholeOf, jobs));
     PredictedError error;
     error.links = overSuns(byLinks);
     error.patches = overSuns(byPatches);

@@ -29,7 +29,7 @@ struct PredictedError
 /// A two-level estimate that needs no reference. Links: the difference to the solution over `coarse`, the links of a
 /// fourfold epsilon (LinkRefiner::kCoarser), which errs about 2.2 times as much. Patches: the difference to a solution
 /// in which the parts of a patch send alike, scaled by what the plan says of the light that is still inside the patches
-/// against that which the cuts resolved; where nothing was cut, half of SplitRecord::unresolved, its share elsewhere.
+/// against that which the cuts resolved; where the cuts resolved less than is left, half of SplitRecord::unresolved.
 /// `direct`: four lights a patch, first-hand irradiance in any unit; channels 0 to 2 the suns, 3 the sky.
 PredictedError predictError(const NodeTree& tree, const LinkTable& links, const LinkTable& coarse,
                             std::span<const glm::dvec4> direct, const SplitRecord& split, u32 jobs);

@@ -11,6 +11,7 @@
 #include "city/base/check.h"
 #include "city/base/hash.h"
 #include "city/base/parallel.h"
+#include "city/light/cosine_directions.h"
 #include "city/light/sequence.h"
 
 namespace helio {
@@ -134,7 +135,7 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
         std::vector<u32> seen, cells;
         std::vector<CellRays> inCell(dome.cellCount() + 1); // the last: the plain beyond
         std::vector<glm::dvec3> from, directions;
-        std::vector<RayHit> hits;
+        std::vector<RayEnd> ends;
         for (u32 patch = begin; patch < end; ++patch) {
             // Planes of few patches need more rays to meet all that they see.
             u32 own = rays;
@@ -151,30 +152,34 @@ SkyScan scanSky(const NodeTree& tree, const Visibility& visibility, u32 rays, u6
             seen.clear();
             from.resize(own);
             directions.resize(own);
-            hits.resize(own);
-            for (u32 k = 0; k < own; ++k) {
-                const std::array<double, 4> x = shiftedSobol4((*order)[k], shift);
-                const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-                directions[k] =
-                    r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * frame.normal;
-                from[k] = visibility.pointOnPatch(patch, x[2], x[3]);
+            ends.resize(own);
+            for (u32 first = 0; first < own; first += kLanes) {
+                Row8 r{}, turn{};
+                const u32 lanes = std::min(kLanes, own - first);
+                for (u32 k = 0; k < lanes; ++k) {
+                    const std::array<double, 4> x = shiftedSobol4((*order)[first + k], shift);
+                    r[k] = float(x[0]);
+                    turn[k] = float(x[1]);
+                    from[first + k] = visibility.pointOnPatch(patch, x[2], x[3]);
+                }
+                cosineDirections(frame, r, turn, std::span(directions).subspan(first, lanes));
             }
-            visibility.trace(from, frame.normal, directions, hits);
+            visibility.trace(from, frame.normal, directions, ends);
             for (u32 k = 0; k < own; ++k) {
-                const RayHit& hit = hits[k];
+                const RayEnd& hit = ends[k];
                 const glm::dvec3& direction = directions[k];
-                if (hit.patch == kNoIndex && direction.z > 0.0) {
+                if (hit.node == kNoIndex && direction.z > 0.0) {
                     ++sky;
-                    const u32 cell = dome.cellOf(direction);
+                    const auto [cell, place] = dome.placeOf(direction);
                     if (inCell[cell].count++ == 0) cells.push_back(cell);
-                    inCell[cell].places += dome.placeIn(cell, direction);
-                } else if (hit.patch == kNoIndex) {
+                    inCell[cell].places += place;
+                } else if (hit.node == kNoIndex) {
                     ++below;
-                } else if (!hit.front || tree.patches[hit.patch].covered) {
+                } else if (!hit.front || tree.nodes[hit.node].covered) {
                     ++back;
                 } else {
                     ++front;
-                    if (seen.empty() || seen.back() != root[hit.patch]) seen.push_back(root[hit.patch]);
+                    if (seen.empty() || seen.back() != root[hit.node]) seen.push_back(root[hit.node]);
                 }
             }
             if (plain && below > 0) {

@@ -7,12 +7,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 #include <queue>
 
 #include "city/base/check.h"
 #include "city/base/hash.h"
 #include "city/base/parallel.h"
+#include "city/light/cosine_directions.h"
 #include "city/light/sequence.h"
 
 namespace helio {
@@ -22,7 +22,8 @@ constexpr u32 kFewestCells = 16, kMostCells = 4096;
 constexpr double kLargeCell = 0.5; // m2: patches whose cells would be larger get more of them, with fewer points each
 /// Of the squared light inside cells, as four points a cell estimate it, what shows in E_indirect (scenes S and M).
 constexpr double kInCells = 0.25;
-constexpr double kNearest = 0.1; // m: nearer surfaces count as this far
+constexpr size_t kMostSuns = 32;
+constexpr float kNearest = 0.1f; // m: nearer surfaces count as this far
 
 /// The grid of cells over the bounding rectangle of a patch.
 struct Grid
@@ -74,10 +75,13 @@ Grid gridOf(const NodeTree& tree, u32 patch)
 /// Direct light on the cells of a patch.
 struct Samples
 {
-    std::vector<u8> points; ///< of each cell that lie on the patch, 0..4
-    std::vector<u8> lit;    ///< [cell * suns + sun]: of these, those that the sun reaches
-    double total = 0.0;      ///< points of all cells
-    std::vector<float> near; ///< 1/m, of each cell: sum over its points of 1 / distance along a cosine ray
+    std::vector<u8> points;     ///< of each cell that lie on the patch, 0..4
+    std::vector<u32> suns;      ///< those that stand before the patch
+    std::vector<u8> lit;        ///< [cell * suns + sun of these]: of the points, those that the sun reaches
+    double total = 0.0;         ///< points of all cells
+    std::vector<float> near;    ///< 1/m, of each cell: sum over its points of 1 / distance along a cosine ray
+    std::vector<double> unit2;  ///< of each sun: what the variance of the lit share counts
+    std::vector<double> square; ///< of each cell: its points x the mean square of the lit share, so counted
 };
 
 Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns, u32 patch,
@@ -85,7 +89,6 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
 {
     Samples s;
     s.points.assign(grid.cellCount(), 0);
-    s.lit.assign(grid.cellCount() * suns.size(), 0);
     const glm::dvec3 normal = tree.nodes[patch].normal;
     const std::span<const Ring3> rings = tree.outlineOf(patch);
     const bool rectangle =
@@ -106,25 +109,31 @@ Samples sampleOf(const NodeTree& tree, const Visibility& visibility, std::span<c
             ++s.points[cell];
         }
     }
-    const auto blocked = std::make_unique<bool[]>(points.size());
-    for (size_t sun = 0; sun < suns.size(); ++sun) {
+    std::vector<glm::dvec3> toSuns;
+    for (u32 sun = 0; sun < suns.size(); ++sun) {
         if (glm::dot(normal, suns[sun]) <= 0.0) continue;
-        visibility.areBlocked(points, normal, suns[sun], std::span(blocked.get(), points.size()));
-        for (size_t p = 0; p < points.size(); ++p)
-            if (!blocked[p]) ++s.lit[cellOf[p] * suns.size() + sun];
+        s.suns.push_back(sun);
+        toSuns.push_back(suns[sun]);
     }
+    s.lit.assign(grid.cellCount() * toSuns.size(), 0);
+    const size_t rays = points.size() * toSuns.size();
+    const auto blocked = std::make_unique<bool[]>(rays);
+    visibility.areBlocked(points, normal, toSuns, std::span(blocked.get(), rays));
+    for (size_t k = 0; k < toSuns.size(); ++k)
+        for (size_t p = 0; p < points.size(); ++p)
+            if (!blocked[k * points.size() + p]) ++s.lit[cellOf[p] * toSuns.size() + k];
     s.total = double(points.size());
     s.near.assign(grid.cellCount(), 0.0f);
     const PlaneFrame frame = planeFrame(normal);
+    std::vector<glm::dvec3> directions(points.size());
+    std::vector<RayEnd> ends(points.size());
     for (u32 k = 0; k < points.size(); ++k) {
         const std::array<double, 4> x = shiftedSobol4(k, shift);
-        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-        const glm::dvec3 direction =
-            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
-        const RayHit hit = visibility.trace(points[k], normal, direction);
-        if (hit.patch == kNoIndex) continue;
-        s.near[cellOf[k]] += float(1.0 / std::max(kNearest, glm::distance(hit.point, points[k])));
+        directions[k] = cosineDirection(frame, x[0], x[1]);
     }
+    visibility.trace(points, normal, directions, ends);
+    for (u32 k = 0; k < points.size(); ++k)
+        if (ends[k].node != kNoIndex) s.near[cellOf[k]] += 1.0f / std::max(kNearest, ends[k].distance);
     return s;
 }
 
@@ -149,6 +158,7 @@ public:
         : tree_(tree), visibility_(visibility), suns_(suns), mayCut_(mayCut), options_(options)
     {
         HELIO_CHECK(mayCut.size() == tree.patchCount(), mayCut.size(), " marks for ", tree.patchCount(), " patches");
+        HELIO_CHECK(suns.size() <= kMostSuns, suns.size(), " suns, the limit is ", kMostSuns);
         HELIO_CHECK(options.growth >= 1.0, "growth = ", options.growth);
     }
 
@@ -165,97 +175,99 @@ public:
             }
         });
         weigh();
-        std::vector<double> error(count, 0.0);
         std::vector<Choice> first(count);
         parallelFor(count, 256, options_.jobs, [&](u32 begin, u32 end) {
             for (u32 patch = begin; patch < end; ++patch) {
                 if (tree_.patches[patch].covered) continue;
                 const Block whole{0, 0, grids_[patch].nu, grids_[patch].nv};
-                error[patch] = errorOf(patch, whole);
-                if (mayCut_[patch] != 0) first[patch] = choose(patch, whole);
+                if (mayCut_[patch] != 0)
+                    first[patch] = choose(patch, whole);
+                else
+                    first[patch].error = errorOf(patch, whole);
             }
         });
-        return grow(error, first);
+        return grow(first);
     }
 
 private:
     struct Choice
     {
-        double gain = 0.0; ///< per added patch
+        double error = 0.0; ///< of the block as it is
+        double gain = 0.0;  ///< per added patch
         u32 axis = 0;
     };
 
     struct Candidate
     {
-        double gain;
+        Choice choice;
         u32 patch, cell;
         Block block;
-        u32 axis;
         bool operator<(const Candidate& other) const
         {
-            return gain != other.gain ? gain < other.gain : cell > other.cell; // ties: the first one
+            return choice.gain != other.choice.gain ? choice.gain < other.choice.gain
+                                                    : cell > other.cell; // ties: the first one
         }
     };
 
-    /// What a squared step of the lit share counts: (rho cos(theta) / mean light)^2 / suns.
+    /// What the lit shares count: unit2 and square of all samples, units being rho cos(theta) / mean light.
     void weigh()
     {
-        const size_t n = suns_.size();
-        std::vector<double> mean(n, 0.0);
+        std::vector<double> mean(suns_.size(), 0.0);
         for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
             const Patch& p = tree_.patches[patch];
             area_ += p.area;
-            if (samples_[patch].lit.empty()) continue;
-            const double total = samples_[patch].total;
-            for (size_t s = 0; s < n && total > 0.0; ++s) {
+            const Samples& s = samples_[patch];
+            for (size_t k = 0; k < s.suns.size() && s.total > 0.0; ++k) {
                 double lit = 0.0;
-                for (u32 cell = 0; cell < grids_[patch].cellCount(); ++cell) lit += samples_[patch].lit[cell * n + s];
-                mean[s] +=
-                    p.area * p.rho.w * std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[s])) * lit / total;
+                for (u32 cell = 0; cell < grids_[patch].cellCount(); ++cell) lit += s.lit[cell * s.suns.size() + k];
+                mean[s.suns[k]] += p.area * p.rho.w * cosine(patch, s.suns[k]) * lit / s.total;
             }
         }
-        scale_.assign(n, 0.0);
-        for (size_t s = 0; s < n; ++s)
-            if (mean[s] > 0.0) scale_[s] = area_ / mean[s];
+        for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
+            Samples& s = samples_[patch];
+            for (const u32 sun : s.suns) {
+                const double unit =
+                    mean[sun] > 0.0 ? tree_.patches[patch].rho.w * cosine(patch, sun) * area_ / mean[sun] : 0.0;
+                s.unit2.push_back(unit * unit / double(suns_.size()));
+            }
+            s.square.assign(s.points.size(), 0.0);
+            for (u32 cell = 0; cell < s.points.size(); ++cell) {
+                if (s.points[cell] == 0) continue;
+                for (size_t k = 0; k < s.suns.size(); ++k) {
+                    const double lit = s.lit[cell * s.suns.size() + k];
+                    s.square[cell] += s.unit2[k] * lit * lit / s.points[cell];
+                }
+            }
+        }
     }
 
-    double pointsIn(u32 patch, const Block& b) const
-    {
-        double sum = 0.0;
-        for (u32 y = b.y0; y < b.y1; ++y)
-            for (u32 x = b.x0; x < b.x1; ++x) sum += samples_[patch].points[y * grids_[patch].nu + x];
-        return sum;
-    }
+    double cosine(u32 patch, u32 sun) const { return glm::dot(tree_.nodes[patch].normal, suns_[sun]); }
 
     /// Area of the block x variance of the light inside it, mean over the suns, x (size x nearness)^2, m2.
     double errorOf(u32 patch, const Block& b) const
     {
         const Samples& s = samples_[patch];
         const Grid& grid = grids_[patch];
-        const size_t n = suns_.size();
-        const double points = pointsIn(patch, b);
-        if (points == 0.0) return 0.0;
-        double variance = 0.0, nearness = 0.0;
-        for (u32 y = b.y0; y < b.y1; ++y)
-            for (u32 x = b.x0; x < b.x1; ++x) nearness += double(s.near[y * grid.nu + x]) / points;
-        for (size_t sun = 0; sun < n; ++sun) {
-            const double cosine = glm::dot(tree_.nodes[patch].normal, suns_[sun]);
-            if (cosine <= 0.0) continue;
-            double sum = 0.0, squares = 0.0;
-            for (u32 y = b.y0; y < b.y1; ++y)
-                for (u32 x = b.x0; x < b.x1; ++x) {
-                    const u32 cell = y * grid.nu + x;
-                    if (s.points[cell] == 0) continue;
-                    const double lit = s.lit[cell * n + sun];
-                    sum += lit;
-                    squares += lit * lit / s.points[cell];
-                }
-            const double unit = tree_.patches[patch].rho.w * cosine * scale_[sun], mean = sum / points;
-            variance += unit * unit * std::max(0.0, squares / points - mean * mean) / double(n);
+        const size_t n = s.suns.size();
+        std::array<u16, kMostSuns> lit{};
+        u32 points = 0;
+        double near = 0.0, squares = 0.0;
+        for (u32 y = b.y0; y < b.y1; ++y) {
+            for (u32 cell = y * grid.nu + b.x0; cell < y * grid.nu + b.x1; ++cell) {
+                points += s.points[cell];
+                near += double(s.near[cell]);
+                squares += s.square[cell];
+                const u8* row = s.lit.data() + cell * n;
+                for (size_t k = 0; k < n; ++k) lit[k] = u16(lit[k] + row[k]);
+            }
         }
+        if (points == 0) return 0.0;
+        const double share = 1.0 / double(points);
+        double variance = squares * share;
+        for (size_t k = 0; k < n; ++k) variance -= s.unit2[k] * (lit[k] * share) * (lit[k] * share);
         const double width = grid.width * (b.x1 - b.x0) / grid.nu, height = grid.height * (b.y1 - b.y0) / grid.nv;
-        const double size = std::max(width, height) * nearness;
-        return tree_.patches[patch].area * points / s.total * variance * std::min(1.0, size * size);
+        const double size = std::max(width, height) * near * share;
+        return tree_.patches[patch].area * points / s.total * std::max(0.0, variance) * std::min(1.0, size * size);
     }
 
     /// The same inside the cells, which no cut can resolve.
@@ -263,19 +275,17 @@ private:
     {
         const Samples& s = samples_[patch];
         const Grid& grid = grids_[patch];
-        const size_t n = suns_.size();
-        if (s.lit.empty()) return 0.0;
+        const size_t n = s.suns.size();
         const double size = std::max(grid.width / grid.nu, grid.height / grid.nv);
         double sum = 0.0, points = 0.0;
-        for (u32 cell = 0; cell < grid.cellCount(); ++cell) {
+        for (u32 cell = 0; cell < s.points.size(); ++cell) {
             const double inCell = s.points[cell];
             points += inCell;
             if (inCell < 2.0) continue;
             double variance = 0.0;
-            for (size_t sun = 0; sun < n; ++sun) {
-                const double cosine = std::max(0.0, glm::dot(tree_.nodes[patch].normal, suns_[sun]));
-                const double unit = tree_.patches[patch].rho.w * cosine * scale_[sun], lit = s.lit[cell * n + sun];
-                variance += unit * unit * lit * (inCell - lit) / (inCell * (inCell - 1.0) * double(n));
+            for (size_t k = 0; k < n; ++k) {
+                const double lit = s.lit[cell * n + k];
+                variance += s.unit2[k] * lit * (inCell - lit) / (inCell * (inCell - 1.0));
             }
             const double near = size * double(s.near[cell]) / inCell;
             sum += inCell * variance * std::min(1.0, near * near);
@@ -287,25 +297,25 @@ private:
     Choice choose(u32 patch, const Block& block) const
     {
         Choice best;
-        const double whole = errorOf(patch, block);
+        const double whole = best.error = errorOf(patch, block);
         if (whole <= 0.0) return best;
         for (u32 axis = 0; axis < 2; ++axis) {
             if (!block.canCut(axis)) continue;
             const std::array<Block, 2> parts = block.cut(axis);
             const double after = errorOf(patch, parts[0]) + errorOf(patch, parts[1]);
-            if (whole - after > best.gain) best = {whole - after, axis};
+            if (whole - after > best.gain) best = {whole, whole - after, axis};
             for (u32 second = 0; second < 2; ++second) {
                 if (!parts[0].canCut(second) || !parts[1].canCut(second)) continue;
                 double quarters = 0.0;
                 for (const Block& part : parts)
                     for (const Block& quarter : part.cut(second)) quarters += errorOf(patch, quarter);
-                if ((whole - quarters) / 3.0 > best.gain) best = {(whole - quarters) / 3.0, axis};
+                if ((whole - quarters) / 3.0 > best.gain) best = {whole, (whole - quarters) / 3.0, axis};
             }
         }
         return best;
     }
 
-    SplitPlan grow(const std::vector<double>& error, const std::vector<Choice>& first)
+    SplitPlan grow(const std::vector<Choice>& first)
     {
         SplitPlan plan;
         const u32 count = tree_.patchCount();
@@ -314,10 +324,9 @@ private:
         double total = 0.0;
         std::priority_queue<Candidate> queue;
         for (u32 patch = 0; patch < count; ++patch) {
-            total += error[patch];
+            total += first[patch].error;
             if (first[patch].gain > 0.0)
-                queue.push(
-                    {first[patch].gain, patch, patch, {0, 0, grids_[patch].nu, grids_[patch].nv}, first[patch].axis});
+                queue.push({first[patch], patch, patch, {0, 0, grids_[patch].nu, grids_[patch].nv}});
         }
         const double whole = total;
         const double limit = options_.unresolved * options_.unresolved * area_;
@@ -334,21 +343,22 @@ private:
                 cell -= count;
             }
             const Grid& grid = grids_[c.patch];
-            const std::array<Block, 2> parts = c.block.cut(c.axis);
+            const std::array<Block, 2> parts = c.block.cut(c.choice.axis);
             const u32 low = u32(plan.cells.size());
             plan.cells.resize(low + 2);
             SplitCell& at = plan.cells[cell];
             at.low = low;
             at.high = low + 1;
-            at.normal = c.axis == 0 ? grid.u : grid.v;
-            const glm::dvec3 place =
-                c.axis == 0 ? grid.at(double(parts[1].x0) / grid.nu, 0.0) : grid.at(0.0, double(parts[1].y0) / grid.nv);
+            at.normal = c.choice.axis == 0 ? grid.u : grid.v;
+            const glm::dvec3 place = c.choice.axis == 0 ? grid.at(double(parts[1].x0) / grid.nu, 0.0)
+                                                        : grid.at(0.0, double(parts[1].y0) / grid.nv);
             at.offset = glm::dot(at.normal, place);
-            total += errorOf(c.patch, parts[0]) + errorOf(c.patch, parts[1]) - errorOf(c.patch, c.block);
+            total -= c.choice.error;
             ++plan.partCount;
             for (u32 k = 0; k < 2; ++k) {
                 const Choice next = choose(c.patch, parts[k]);
-                if (next.gain > 0.0) queue.push({next.gain, c.patch, count + low + k, parts[k], next.axis});
+                total += next.error;
+                if (next.gain > 0.0) queue.push({next, c.patch, count + low + k, parts[k]});
             }
         }
         const auto rootMean = [&](double sum) { return area_ > 0.0 ? std::sqrt(std::max(0.0, sum) / area_) : 0.0; };
@@ -366,7 +376,6 @@ private:
     SplitOptions options_;
     std::vector<Grid> grids_;
     std::vector<Samples> samples_;
-    std::vector<double> scale_; ///< per sun: 1 / area mean of rho E, E in units of the sun's normal irradiance
     double area_ = 0.0;
 };
 

@@ -10,6 +10,10 @@ namespace helio {
 std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, const glm::dvec3& toSun, u32 samples,
                            u32 jobs = 0);
 
+/// The same for several suns, one after another.
+std::vector<std::vector<double>> raySuns(const NodeTree& tree, const Visibility& visibility,
+                                         std::span<const glm::dvec3> toSuns, u32 samples, u32 jobs = 0);
+
 /// Unit vector to the sun from azimuth (clockwise from +y) and elevation, radians.
 glm::dvec3 sunDirection(double azimuth, double elevation);
 

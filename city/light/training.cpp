@@ -45,9 +45,7 @@ Training trainLights(const NodeTree& tree, const Visibility& visibility, std::sp
                      std::span<const gpu::ChildSlopeRecord> slopes, u32 suns, u32 jobs)
 {
     const u32 count = tree.patchCount();
-    std::vector<std::vector<double>> lights;
-    for (const glm::dvec3& toSun : trainingSuns(suns))
-        lights.push_back(raySun(tree, visibility, toSun, kRaysPerSun, jobs));
+    std::vector<std::vector<double>> lights = raySuns(tree, visibility, trainingSuns(suns), kRaysPerSun, jobs);
     lights.emplace_back(sky.begin(), sky.end());
     lights.emplace_back(count, 1.0);
     for (std::vector<double>& light : lights)

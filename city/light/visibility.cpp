@@ -8,33 +8,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <mutex>
 
 #include "city/base/check.h"
+#include "city/light/filled_nodes.h"
 #include "city/model/ring_polygons.h"
 #include "city/model/triangulate.h"
 
 namespace helio {
-
-struct Visibility::Scene
-{
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    glm::dvec3 origin{0.0};
-    double lift = 0.0;              // m, how far rays start off a surface
-    std::vector<glm::vec3> corners; // three a triangle, shared with Embree (padded by one)
-    std::vector<u32> triangleBegin; // per patch, + 1
-    std::vector<u32> patchOfTriangle;
-    std::vector<float> areaUpTo; // share of the patch's area up to and with each triangle
-
-    /// What a ray met, from the triangle's normal and the place on it.
-    RayHit hitOn(u32 triangle, const glm::vec3& normal, float u, float v, const glm::dvec3& direction) const
-    {
-        // From the corners: more exact than the ray's own length where it came from far away.
-        const glm::dvec3 a(corners[3 * triangle]), b(corners[3 * triangle + 1]), c(corners[3 * triangle + 2]);
-        const bool front = glm::dot(glm::dvec3(normal), direction) < 0.0;
-        return {patchOfTriangle[triangle], front, origin + a + double(u) * (b - a) + double(v) * (c - a)};
-    }
-};
 
 namespace {
 
@@ -56,7 +37,8 @@ RTCRay makeRay(const glm::dvec3& origin, const glm::dvec3& direction, double end
     return ray;
 }
 
-constexpr size_t kWidth = 8; // of a packet
+constexpr size_t kWidth = 8;       // of a packet
+constexpr double kOffPlane = 0.25; // of the lift: how far patches may lie off the plane of what blocks in their place
 
 /// Ray k of a packet.
 void setRay(RTCRay8& packet, size_t k, const glm::dvec3& origin, const glm::dvec3& direction, float end)
@@ -85,24 +67,135 @@ size_t fillPacket(RTCRay8& packet, int (&valid)[kWidth], size_t first, size_t to
     return count;
 }
 
-/// Shadow rays eight at a time: faster, since rays side by side go through the structure together. ray(k): start and
-/// direction of ray k.
-template <class Ray>
-void traceShadows(RTCScene scene, float end, bool coherent, std::span<bool> blocked, Ray&& ray)
+/// Shadow rays eight at a time: faster, since rays side by side go through the structure together. Those that are
+/// blocked get a negative end.
+void occlude(RTCScene scene, bool coherent, int (&valid)[kWidth], RTCRay8& rays)
 {
-    for (size_t first = 0; first < blocked.size(); first += kWidth) {
-        alignas(32) RTCRay8 rays{};
-        alignas(32) int valid[kWidth];
-        const size_t count = fillPacket(rays, valid, first, blocked.size(), end, ray);
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcOccluded8(valid, scene, &context, &rays);
-        for (size_t k = 0; k < count; ++k) blocked[first + k] = rays.tfar[k] < 0.0f;
-    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded8(valid, scene, &context, &rays);
 }
 
+/// Embree's structure over triangles of their own corners.
+class RayStructure
+{
+public:
+    /// `corners`: three a triangle, kept by the caller, with one more behind them: Embree reads 16 bytes a corner.
+    explicit RayStructure(const std::vector<glm::vec3>& corners)
+    {
+        const size_t triangles = corners.size() / 3;
+        constexpr size_t kMostTriangles = std::numeric_limits<u32>::max() / 3;
+        HELIO_CHECK(triangles <= kMostTriangles, "the patches make ", triangles,
+                    " triangles, the limit of the rays is ", kMostTriangles, "; bake a smaller area");
+        // One thread: the order of triangles inside the structure, hence ties between coincident ones, must not vary.
+        device_ = rtcNewDevice("threads=1");
+        HELIO_CHECK(device_ != nullptr, "Embree gives no device, error ", int(rtcGetDeviceError(nullptr)));
+        scene_ = rtcNewScene(device_);
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, corners.data(), 0,
+                                   sizeof(glm::vec3), corners.size() - 1);
+        auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                  3 * sizeof(u32), std::max<size_t>(1, triangles)));
+        HELIO_CHECK(indices != nullptr, "Embree has no memory for ", triangles, kMemoryHint);
+        for (u32 i = 0; i < 3 * triangles; ++i) indices[i] = i;
+        if (triangles == 0) indices[0] = indices[1] = indices[2] = 0;
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+        const RTCError error = rtcGetDeviceError(device_);
+        HELIO_CHECK(error != RTC_ERROR_OUT_OF_MEMORY, "Embree has no memory for ", triangles, kMemoryHint);
+        HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", triangles, " triangles");
+    }
+
+    ~RayStructure()
+    {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+
+    RayStructure(const RayStructure&) = delete;
+    RayStructure& operator=(const RayStructure&) = delete;
+
+    RTCScene scene() const { return scene_; }
+
+private:
+    RTCDevice device_ = nullptr;
+    RTCScene scene_ = nullptr;
+};
+
 } // namespace
+
+struct Visibility::Scene
+{
+    glm::dvec3 origin{0.0};
+    double lift = 0.0; // m, how far rays start off a surface
+
+    std::vector<glm::vec3> corners; // of the patches' triangles, three each
+    std::vector<u32> triangleBegin; // per patch, + 1
+    std::vector<u32> patchOfTriangle;
+    std::vector<float> areaUpTo; // share of the patch's area up to and with each triangle
+
+    std::vector<glm::vec3> blockerCorners; // of the triangles that stand for them, three each
+    std::vector<u32> nodeOfBlocker;
+    std::unique_ptr<RayStructure> blockers;
+
+    std::once_flag needsPatches;
+    std::unique_ptr<RayStructure> patches; // see patchStructure()
+
+    void addPatches(const NodeTree& tree)
+    {
+        triangleBegin.push_back(0);
+        for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
+            double total = 0.0;
+            const size_t first = areaUpTo.size();
+            const Node& node = tree.nodes[patch];
+            for (const Polygon3& polygon : ringPolygons(tree, node.ringBegin, node.ringCount)) {
+                std::vector<glm::dvec3> outline(polygon.outer);
+                for (const Ring3& hole : polygon.holes) outline.insert(outline.end(), hole.begin(), hole.end());
+                for (const auto& t : triangulate(polygon)) {
+                    const glm::dvec3 &a = outline[t[0]], &b = outline[t[1]], &c = outline[t[2]];
+                    total += 0.5 * glm::length(glm::cross(b - a, c - a));
+                    areaUpTo.push_back(float(total));
+                    patchOfTriangle.push_back(patch);
+                    for (const u32 corner : t) corners.emplace_back(outline[corner] - origin);
+                }
+            }
+            for (size_t t = first; t < areaUpTo.size(); ++t)
+                areaUpTo[t] = total > 0.0 ? float(double(areaUpTo[t]) / total) : 1.0f;
+            triangleBegin.push_back(u32(patchOfTriangle.size()));
+        }
+    }
+
+    /// A filled node as a fan, another one by what is below it.
+    void addBlockers(const NodeTree& tree, std::span<const u8> filled, u32 node)
+    {
+        const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+            for (const glm::vec3& corner : {a, b, c}) blockerCorners.push_back(corner);
+            nodeOfBlocker.push_back(node);
+        };
+        if (filled[node] != 0) {
+            const Ring3& ring = tree.outlineOf(node)[0];
+            const auto corner = [&](size_t k) { return glm::vec3(ring[k] - origin); };
+            for (size_t k = 1; k + 1 < ring.size(); ++k) add(corner(0), corner(k), corner(k + 1));
+        } else if (tree.isLeaf(node)) {
+            for (size_t t = triangleBegin[node]; t < triangleBegin[node + 1]; ++t)
+                add(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
+        } else {
+            for (const u32 child : tree.childrenOf(node)) addBlockers(tree, filled, child);
+        }
+    }
+
+    /// The structure over the patches themselves: few need to know which patch a ray met, and it is built when one
+    /// does.
+    RTCScene patchStructure()
+    {
+        std::call_once(needsPatches, [this] { patches = std::make_unique<RayStructure>(corners); });
+        return patches->scene();
+    }
+};
 
 Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
 {
@@ -118,62 +211,35 @@ Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
     // Float coordinates err by half a unit in the last place; the products of a ray intersection by a few more.
     const double extent = tree.rings.empty() ? 1.0 : glm::length(0.5 * (high - low));
     s.lift = 16.0 * extent * double(std::numeric_limits<float>::epsilon());
-
-    s.triangleBegin.push_back(0);
-    for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
-        double total = 0.0;
-        const size_t first = s.areaUpTo.size();
-        for (const Polygon3& polygon : ringPolygons(tree, tree.nodes[patch].ringBegin, tree.nodes[patch].ringCount)) {
-            std::vector<glm::dvec3> corners(polygon.outer);
-            for (const Ring3& hole : polygon.holes) corners.insert(corners.end(), hole.begin(), hole.end());
-            for (const auto& t : triangulate(polygon)) {
-                total += 0.5 * glm::length(glm::cross(corners[t[1]] - corners[t[0]], corners[t[2]] - corners[t[0]]));
-                s.areaUpTo.push_back(float(total));
-                s.patchOfTriangle.push_back(patch);
-                for (const u32 corner : t) s.corners.emplace_back(corners[corner] - s.origin);
-            }
-        }
-        for (size_t t = first; t < s.areaUpTo.size(); ++t)
-            s.areaUpTo[t] = total > 0.0 ? float(double(s.areaUpTo[t]) / total) : 1.0f;
-        s.triangleBegin.push_back(u32(s.patchOfTriangle.size()));
-    }
-    const size_t triangles = s.patchOfTriangle.size();
-    constexpr size_t kMostTriangles = std::numeric_limits<u32>::max() / 3;
-    HELIO_CHECK(triangles <= kMostTriangles, "the patches make ", triangles, " triangles, the limit of the rays is ",
-                kMostTriangles, "; bake a smaller area");
-    s.corners.emplace_back(0.0f); // Embree reads 16 bytes a vertex.
-
-    // One thread: the order of triangles inside the structure, hence ties between coincident ones, must not vary.
-    s.device = rtcNewDevice("threads=1");
-    HELIO_CHECK(s.device != nullptr, "Embree gives no device, error ", int(rtcGetDeviceError(nullptr)));
-    s.scene = rtcNewScene(s.device);
-    rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, s.corners.data(), 0,
-                               sizeof(glm::vec3), s.corners.size() - 1);
-    auto* indices = static_cast<u32*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                              3 * sizeof(u32), std::max<size_t>(1, triangles)));
-    HELIO_CHECK(indices != nullptr, "Embree has no memory for ", triangles, kMemoryHint);
-    for (u32 i = 0; i < 3 * triangles; ++i) indices[i] = i;
-    if (triangles == 0) indices[0] = indices[1] = indices[2] = 0;
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(s.scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(s.scene);
-    const RTCError error = rtcGetDeviceError(s.device);
-    HELIO_CHECK(error != RTC_ERROR_OUT_OF_MEMORY, "Embree has no memory for ", triangles, kMemoryHint);
-    HELIO_CHECK(error == RTC_ERROR_NONE, "Embree error ", int(error), " with ", triangles, " triangles");
+    s.addPatches(tree);
+    const std::vector<u8> filled = filledNodes(tree, kOffPlane * s.lift);
+    for (u32 i = 0; i < tree.nodeCount(); ++i)
+        if (tree.isPlanarRoot(i)) s.addBlockers(tree, filled, i);
+    for (std::vector<glm::vec3>* all : {&s.corners, &s.blockerCorners}) all->emplace_back(0.0f);
+    s.blockers = std::make_unique<RayStructure>(s.blockerCorners);
 }
 
-Visibility::~Visibility()
+Visibility::~Visibility() = default;
+
+glm::dvec3 Visibility::origin() const
 {
-    rtcReleaseScene(scene_->scene);
-    rtcReleaseDevice(scene_->device);
+    return scene_->origin;
+}
+
+std::span<const glm::vec3> Visibility::trianglesOf(u32 patch) const
+{
+    const size_t begin = scene_->triangleBegin[patch], end = scene_->triangleBegin[patch + 1];
+    return std::span(scene_->corners).subspan(3 * begin, 3 * (end - begin));
+}
+
+double Visibility::lift() const
+{
+    return scene_->lift;
 }
 
 u32 Visibility::triangleCount() const
 {
-    return u32(scene_->patchOfTriangle.size());
+    return u32(scene_->nodeOfBlocker.size());
 }
 
 glm::dvec3 Visibility::pointOnPatch(u32 patch, double u, double v) const
@@ -199,7 +265,7 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& fromNormal,
     RTCRay ray = makeRay(a, b - a, 1.0);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_->scene, &context, &ray);
+    rtcOccluded1(scene_->blockers->scene(), &context, &ray);
     return ray.tfar < 0.0f;
 }
 
@@ -209,17 +275,35 @@ bool Visibility::isBlocked(const glm::dvec3& from, const glm::dvec3& normal, con
                          double(std::numeric_limits<float>::infinity()));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_->scene, &context, &ray);
+    rtcOccluded1(scene_->blockers->scene(), &context, &ray);
     return ray.tfar < 0.0f;
 }
 
-void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& normal, const glm::dvec3& direction,
-                            std::span<bool> blocked) const
+void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& normal,
+                            std::span<const glm::dvec3> directions, std::span<bool> blocked) const
 {
-    HELIO_CHECK(blocked.size() == from.size(), blocked.size(), " places for ", from.size(), " rays");
+    const size_t total = from.size();
+    HELIO_CHECK(blocked.size() == total * directions.size(), blocked.size(), " places for ", total, " points and ",
+                directions.size(), " directions");
     const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
-    traceShadows(scene_->scene, std::numeric_limits<float>::infinity(), true, blocked,
-                 [&](size_t k) { return std::pair(from[k] + lift, direction); });
+    constexpr float kEndless = std::numeric_limits<float>::infinity();
+    for (size_t first = 0; first < total; first += kWidth) {
+        alignas(32) RTCRay8 rays{};
+        alignas(32) int valid[kWidth];
+        const size_t count = fillPacket(rays, valid, first, total, kEndless,
+                                        [&](size_t k) { return std::pair(from[k] + lift, glm::dvec3(0.0)); });
+        for (size_t d = 0; d < directions.size(); ++d) {
+            const glm::vec3 direction(directions[d]);
+            for (size_t k = 0; k < kWidth; ++k) {
+                rays.dir_x[k] = direction.x;
+                rays.dir_y[k] = direction.y;
+                rays.dir_z[k] = direction.z;
+                rays.tfar[k] = kEndless;
+            }
+            occlude(scene_->blockers->scene(), true, valid, rays);
+            for (size_t k = 0; k < count; ++k) blocked[d * total + first + k] = rays.tfar[k] < 0.0f;
+        }
+    }
 }
 
 void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& fromNormal,
@@ -228,8 +312,14 @@ void Visibility::areBlocked(std::span<const glm::dvec3> from, const glm::dvec3& 
     HELIO_CHECK(blocked.size() == from.size() && to.size() == from.size(), from.size(), " and ", to.size(), " ends, ",
                 blocked.size(), " places");
     const glm::dvec3 lift = scene_->lift * fromNormal - scene_->origin, turn = scene_->lift * (toNormal - fromNormal);
-    traceShadows(scene_->scene, 1.0f, false, blocked,
-                 [&](size_t k) { return std::pair(from[k] + lift, to[k] - from[k] + turn); });
+    for (size_t first = 0; first < from.size(); first += kWidth) {
+        alignas(32) RTCRay8 rays{};
+        alignas(32) int valid[kWidth];
+        const size_t count = fillPacket(rays, valid, first, from.size(), 1.0f,
+                                        [&](size_t k) { return std::pair(from[k] + lift, to[k] - from[k] + turn); });
+        occlude(scene_->blockers->scene(), false, valid, rays);
+        for (size_t k = 0; k < count; ++k) blocked[first + k] = rays.tfar[k] < 0.0f;
+    }
 }
 
 RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const glm::dvec3& direction) const
@@ -241,36 +331,41 @@ RayHit Visibility::trace(const glm::dvec3& from, const glm::dvec3& normal, const
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_->scene, &context, &hit);
+    rtcIntersect1(scene_->patchStructure(), &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return scene_->hitOn(hit.hit.primID, {hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z}, hit.hit.u, hit.hit.v, direction);
+    const u32 triangle = hit.hit.primID;
+    // From the corners: more exact than the ray's own length where it came from far away.
+    const glm::vec3* corner = scene_->corners.data() + 3 * size_t(triangle);
+    const glm::dvec3 a(corner[0]), b(corner[1]), c(corner[2]);
+    const bool front = glm::dot(glm::dvec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z), direction) < 0.0;
+    return {scene_->patchOfTriangle[triangle], front,
+            scene_->origin + a + double(hit.hit.u) * (b - a) + double(hit.hit.v) * (c - a)};
 }
 
 void Visibility::trace(std::span<const glm::dvec3> from, const glm::dvec3& normal,
-                       std::span<const glm::dvec3> direction, std::span<RayHit> hit) const
+                       std::span<const glm::dvec3> direction, std::span<RayEnd> end) const
 {
-    HELIO_CHECK(direction.size() == from.size() && hit.size() == from.size(), from.size(), " starts, ",
-                direction.size(), " directions, ", hit.size(), " places");
+    HELIO_CHECK(direction.size() == from.size() && end.size() == from.size(), from.size(), " starts, ",
+                direction.size(), " directions, ", end.size(), " places");
     const glm::dvec3 lift = scene_->lift * normal - scene_->origin;
     for (size_t first = 0; first < from.size(); first += kWidth) {
         alignas(32) RTCRayHit8 packet{};
         alignas(32) int valid[kWidth];
-        const size_t count =
-            fillPacket(packet.ray, valid, first, from.size(), std::numeric_limits<float>::infinity(),
-                       [&](size_t k) { return std::pair(from[k] + lift, direction[k]); });
+        const size_t count = fillPacket(packet.ray, valid, first, from.size(), std::numeric_limits<float>::infinity(),
+                                        [&](size_t k) { return std::pair(from[k] + lift, direction[k]); });
         for (size_t k = 0; k < kWidth; ++k) {
             packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
             packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
         }
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        rtcIntersect8(valid, scene_->scene, &context, &packet);
+        rtcIntersect8(valid, scene_->blockers->scene(), &context, &packet);
         for (size_t k = 0; k < count; ++k) {
-            hit[first + k] = {};
+            end[first + k] = {};
             if (packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
-            hit[first + k] =
-                scene_->hitOn(packet.hit.primID[k], {packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]},
-                              packet.hit.u[k], packet.hit.v[k], direction[first + k]);
+            const glm::dvec3 met(packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]);
+            end[first + k] = {scene_->nodeOfBlocker[packet.hit.primID[k]], glm::dot(met, direction[first + k]) < 0.0,
+                              packet.ray.tfar[k]};
         }
     }
 }

@@ -33,7 +33,8 @@ struct Node
     glm::dvec3 centroid{0.0}; ///< area weighted
     glm::dvec3 normal{0.0};   ///< unit normal of the lit side; zero for a cluster
     u32 ringBegin = 0,
-        ringCount = 0; ///< outline, into NodeTree::rings: a leaf's own rings, an inner planar node's convex hull
+        ringCount = 0; ///< outline, into NodeTree::rings: a leaf's own rings, or those of the patch that was cut
+                       ///< into what is below; of other inner planar nodes their convex hull
 };
 
 /// A leaf: coplanar polygons with one normal, one reflectance and one id. It may stand for several pieces of a facade

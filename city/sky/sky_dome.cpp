@@ -8,6 +8,16 @@
 #include "city/base/check.h"
 
 namespace helio {
+namespace {
+
+/// Of the azimuth of a direction, counter-clockwise from +x, in [0, 1].
+double turnOf(const glm::dvec3& direction)
+{
+    const double turn = std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi);
+    return turn < 0.0 ? turn + 1.0 : turn;
+}
+
+} // namespace
 
 SkyDome::SkyDome(u32 cells)
 {
@@ -41,13 +51,17 @@ double SkyDome::cosineAbove(u32 ring) const
     return 1.0 - double(firstOfRing_[ring]) / cellCount();
 }
 
-u32 SkyDome::cellOf(const glm::dvec3& direction) const
+u32 SkyDome::cellAt(double turn, double z) const
 {
     const u32 last = cellCount() - 1;
-    const u32 ring = ringOf(std::min(u32(std::max(0.0, (1.0 - direction.z) * cellCount())), last));
+    const u32 ring = ringOf(std::min(u32(std::max(0.0, (1.0 - z) * cellCount())), last));
     const u32 first = firstOfRing_[ring], count = firstOfRing_[ring + 1] - first;
-    const double turn = std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi); // [-0.5, 0.5]
-    return first + std::min(u32((turn < 0.0 ? turn + 1.0 : turn) * count), count - 1);
+    return first + std::min(u32(turn * count), count - 1);
+}
+
+u32 SkyDome::cellOf(const glm::dvec3& direction) const
+{
+    return cellAt(turnOf(direction), direction.z);
 }
 
 glm::dvec3 SkyDome::pointOf(u32 cell, double u, double v) const
@@ -64,7 +78,7 @@ glm::dvec3 SkyDome::centreOf(u32 cell) const
     return cell == 0 ? glm::dvec3(0.0, 0.0, 1.0) : pointOf(cell, 0.5, 0.5);
 }
 
-glm::dvec2 SkyDome::placeIn(u32 cell, const glm::dvec3& direction) const
+glm::dvec2 SkyDome::placeAt(u32 cell, double turn, const glm::dvec3& direction) const
 {
     HELIO_CHECK(cell < cellCount(), "cell ", cell, " of ", cellCount());
     const u32 ring = ringOf(cell), first = firstOfRing_[ring], count = firstOfRing_[ring + 1] - first;
@@ -74,9 +88,19 @@ glm::dvec2 SkyDome::placeIn(u32 cell, const glm::dvec3& direction) const
         const double width = 2.0 * std::sqrt(1.0 - bottom * bottom);
         return {inside(direction.x / width), inside(direction.y / width)};
     }
-    const double turn = std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi);
-    return {inside((turn < 0.0 ? turn + 1.0 : turn) * count - (cell - first) - 0.5),
-            inside((direction.z - top) / (bottom - top) - 0.5)};
+    return {inside(turn * count - (cell - first) - 0.5), inside((direction.z - top) / (bottom - top) - 0.5)};
+}
+
+glm::dvec2 SkyDome::placeIn(u32 cell, const glm::dvec3& direction) const
+{
+    return placeAt(cell, turnOf(direction), direction);
+}
+
+SkyDome::Place SkyDome::placeOf(const glm::dvec3& direction) const
+{
+    const double turn = turnOf(direction);
+    const u32 cell = cellAt(turn, direction.z);
+    return {cell, placeAt(cell, turn, direction)};
 }
 
 double SkyDome::projectedHeight(u32 cell) const

@@ -37,6 +37,14 @@ public:
     /// the cap, whose azimuth says nothing, its x and y over the cap's width.
     glm::dvec2 placeIn(u32 cell, const glm::dvec3& direction) const;
 
+    struct Place
+    {
+        u32 cell = 0;
+        glm::dvec2 inside{0.0};
+    };
+    /// cellOf() and placeIn() at once.
+    Place placeOf(const glm::dvec3& direction) const;
+
     /// Integral of the cosine to the zenith over a cell, sr. They sum to pi.
     double projectedSolidAngle(u32 cell) const;
 
@@ -46,6 +54,8 @@ public:
 
 private:
     u32 ringOf(u32 cell) const;
+    u32 cellAt(double turn, double z) const; ///< turn of the azimuth in [0, 1]
+    glm::dvec2 placeAt(u32 cell, double turn, const glm::dvec3& direction) const;
     double cosineAbove(u32 ring) const; ///< of the zenith angle where a ring begins
 
     std::vector<u32> firstOfRing_; ///< first cell of each ring, then the number of cells

@@ -9,6 +9,7 @@
 
 #include "city/base/check.h"
 #include "city/base/parallel.h"
+#include "city/light/cosine_directions.h"
 #include "city/light/sequence.h"
 #include "city/light/visibility.h"
 
@@ -41,6 +42,7 @@ NodeTree partOf(const NodeTree& tree, std::span<const u32> patches)
         const std::span<const Ring3> rings = tree.outlineOf(patch);
         part.ringIsHole.insert(part.ringIsHole.end(), tree.ringIsHole.begin() + node.ringBegin,
                                tree.ringIsHole.begin() + node.ringBegin + node.ringCount);
+        node.parent = kNoIndex;
         node.ringBegin = u32(part.rings.size());
         part.rings.insert(part.rings.end(), rings.begin(), rings.end());
         part.patches.push_back(tree.patches[patch]);
@@ -56,9 +58,7 @@ bool facesInwards(const NodeTree& part, const Visibility& visibility, u32 patch)
     u32 backs = 0, rays = 0;
     for (u32 k = 0; k < kRays; ++k) {
         const std::array<double, 4> x = shiftedSobol4(k, {});
-        const double r = std::sqrt(x[0]), phi = 2.0 * std::numbers::pi * x[1];
-        glm::dvec3 direction =
-            r * std::cos(phi) * frame.u + r * std::sin(phi) * frame.v + std::sqrt(1.0 - x[0]) * normal;
+        glm::dvec3 direction = cosineDirection(frame, x[0], x[1]);
         if (std::abs(normal.z) < kLevel) {
             direction.z *= 0.1;
             direction = glm::normalize(direction);

@@ -9,6 +9,7 @@ add_executable(light_test
     numeric/fixtures.cpp
     numeric/form_factor_test.cpp
     numeric/links_test.cpp
+    numeric/occluders_test.cpp
     numeric/pair_fixtures.cpp
     numeric/paper_links_test.cpp
     numeric/path_tracer_test.cpp

@@ -120,6 +120,28 @@ TEST(Links, ExchangeIsReciprocalAndRowsDoNotExceedOne)
     EXPECT_LT(std::abs(bake.stats.closureDefect), 5e-3);
 }
 
+TEST(Links, CoarseOnesAreFewerAndExchangeTheSame)
+{
+    const NodeTree tree = makeTree(blocks(3));
+    const Visibility visibility(tree);
+    const SkyScan scan = scanSky(tree, visibility, 256, 1, 1, {});
+    const Training training = trainLights(tree, visibility, scan.sky, {}, 20, 1);
+    const LinkBuild build = buildLinks(tree, visibility, training, {}, scan.rootPairs, {.epsilon = 2e-4, .jobs = 1});
+    EXPECT_LT(build.coarse.size(), build.links.size() * 9 / 10);
+    EXPECT_GT(build.coarse.size(), build.links.size() / 20);
+    // Every exchange of a fine link is part of one coarse link: rows of planes add up to the same.
+    const std::vector<double> fine = patchRowSums(tree, linkTable(tree, build.links, 1)),
+                              coarse = patchRowSums(tree, linkTable(tree, build.coarse, 1));
+    double sumFine = 0.0, sumCoarse = 0.0, differs = 0.0;
+    for (u32 i = 0; i < tree.patchCount(); ++i) {
+        sumFine += tree.patches[i].area * fine[i];
+        sumCoarse += tree.patches[i].area * coarse[i];
+        differs = std::max(differs, std::abs(fine[i] - coarse[i]));
+    }
+    EXPECT_NEAR(sumCoarse / sumFine, 1.0, 0.01);
+    EXPECT_GT(differs, 1e-3) << "single patches show the difference";
+}
+
 TEST(Links, OcclusionOfASquareByASquare)
 {
     // Unit squares 1 m apart, opaque 0.5 m square half-way / at three quarters: 0.0995062946 / 0.1156206021.

@@ -85,6 +85,26 @@ TEST(PredictedError, PartsThatSendAlikeTellWhatPatchesHide)
     EXPECT_NEAR(predictError(tree, links, links, direct, {{0, 0, 1}, 0.1, 0.11}, 1).patches, 0.05, 1e-12);
 }
 
+TEST(PredictedError, DoesNotDependOnTheNumberOfThreads)
+{
+    const std::string base = std::string(HELIO_TEST_DATA) + "/scenes/S";
+    PredictedError of[2];
+    for (const u32 jobs : {1u, 3u}) {
+        const Result<ShapeTree> shapes = readSurfaces(base + ".obj", base + ".csv");
+        ASSERT_TRUE(shapes.ok()) << shapes.error().message;
+        NodeTreeBuild build = buildNodes(shapes.value(), {});
+        LightOptions options;
+        options.error = 0.08;
+        options.jobs = jobs;
+        of[jobs == 3 ? 1 : 0] = bakeLight(build, {}, options).stats.predicted;
+    }
+    EXPECT_GT(of[0].total, 0.0);
+    EXPECT_EQ(of[0].total, of[1].total);
+    EXPECT_EQ(of[0].sky, of[1].sky);
+    EXPECT_EQ(of[0].links, of[1].links);
+    EXPECT_EQ(of[0].patches, of[1].patches);
+}
+
 TEST(PredictedError, IsWithinAFactorOfTwoOfTheMeasuredOneOnFourBuildings)
 {
     const std::string base = std::string(HELIO_TEST_DATA) + "/scenes/S";

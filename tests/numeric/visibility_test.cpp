@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "city/light/cosine_directions.h"
 #include "city/light/sequence.h"
 #include "city/light/sky.h"
 #include "city/light/sun.h"
@@ -89,6 +90,62 @@ TEST(Visibility, BlocksFromBothSidesAndEndsOnSurfaces)
         EXPECT_TRUE(visibility.isBlocked(offset + 4.0 * kZ, -kZ, -kZ));
         EXPECT_FALSE(visibility.isBlocked(offset, -kZ, -kZ));
     }
+}
+
+TEST(Visibility, PacketsMeetWhatSingleRaysMeet)
+{
+    const NodeTree tree = makeTree(courtyard(4));
+    const Visibility visibility(tree);
+    const std::array<u32, 4> shift = digitalShift(3);
+    u32 met = 0;
+    for (u32 patch = 0; patch < tree.patchCount(); patch += 5) {
+        const PlaneFrame frame = planeFrame(tree.nodes[patch].normal);
+        constexpr u32 kRays = 43; // no multiple of the packet's width
+        std::vector<glm::dvec3> from(kRays), direction(kRays);
+        std::vector<RayEnd> ends(kRays);
+        for (u32 k = 0; k < kRays; ++k) {
+            const std::array<double, 4> x = shiftedSobol4(k, shift);
+            from[k] = visibility.pointOnPatch(patch, x[2], x[3]);
+            direction[k] = cosineDirection(frame, x[0], x[1]);
+        }
+        visibility.trace(from, frame.normal, direction, ends);
+        for (u32 k = 0; k < kRays; ++k) {
+            const RayHit hit = visibility.trace(from[k], frame.normal, direction[k]);
+            ASSERT_EQ(ends[k].node == kNoIndex, hit.patch == kNoIndex) << patch << " " << k;
+            if (hit.patch == kNoIndex) continue;
+            ++met;
+            u32 above = hit.patch;
+            while (above != ends[k].node && above != kNoIndex) above = tree.nodes[above].parent;
+            EXPECT_EQ(above, ends[k].node) << "a node that the patch is part of";
+            EXPECT_EQ(ends[k].front, hit.front);
+            EXPECT_NEAR(double(ends[k].distance), glm::distance(hit.point, from[k]), 1e-3);
+        }
+    }
+    EXPECT_GT(met, 500u);
+    EXPECT_LT(visibility.triangleCount(), 2 * tree.patchCount() / 4) << "walls block as wholes";
+}
+
+TEST(CosineDirections, EightAtATimeAgreeWithOne)
+{
+    const PlaneFrame frame = planeFrame(glm::normalize(glm::dvec3(1, 2, -3)));
+    const std::array<u32, 4> shift = digitalShift(8);
+    double worst = 0.0;
+    for (u32 first = 0; first < 4096; first += kLanes) {
+        Row8 x, y;
+        std::array<glm::dvec3, kLanes> directions;
+        for (u32 k = 0; k < kLanes; ++k) {
+            const std::array<double, 4> point = shiftedSobol4(first + k, shift);
+            x[k] = float(point[0]);
+            y[k] = float(point[1]);
+        }
+        cosineDirections(frame, x, y, directions);
+        for (u32 k = 0; k < kLanes; ++k) {
+            const glm::dvec3 one = cosineDirection(frame, std::min(double(x[k]), 1.0 - 0x1.0p-23), double(y[k]));
+            raise(worst, glm::distance(directions[k], one));
+            EXPECT_GT(glm::dot(directions[k], frame.normal), 0.0);
+        }
+    }
+    EXPECT_LT(worst, 1e-6);
 }
 
 TEST(Visibility, PointsOnAPatchKeepToItsAreaAndItsHole)

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "city/model/node_tree.h"
+
+namespace helio {
+
+/// Largest number of corners of the outline of a filled node.
+constexpr u32 kFilledCorners = 8;
+
+/// Per node, 1 if its outline can stand for its patches where something is to block: it is planar, its outline is one
+/// convex ring of at most kFilledCorners corners that the patches below fill, all their corners lie within `tolerance`
+/// (m) of its plane, and all of them are covered or none is.
+std::vector<u8> filledNodes(const NodeTree& tree, double tolerance);
+
+} // namespace helio

@@ -6,11 +6,15 @@
 
 #include "city/base/types.h"
 
-// Compiles a function twice, for processors with 256-bit lanes and for all others; one is chosen when the program
-// starts. Both give the same bits: neither fuses products with sums.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+// Compiles a function twice, for processors with 256-bit lanes and for all others; glibc chooses one when the program
+// starts, before a sanitizer is ready for it. Both give the same bits: neither fuses products with sums.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__has_attribute) && !defined(__SANITIZE_ADDRESS__) &&         \
+    !defined(__SANITIZE_THREAD__)
+#if __has_attribute(target_clones)
 #define HELIO_LANES __attribute__((target_clones("avx2", "default")))
-#else
+#endif
+#endif
+#ifndef HELIO_LANES
 #define HELIO_LANES
 #endif
 

@@ -1,26 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/light/filled_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace helio {
 namespace {
 
+constexpr double kStraight = 1e-6; // m
+
 bool isConvex(const Ring3& ring, const glm::dvec3& normal, double tolerance)
 {
     for (size_t k = 0; k < ring.size(); ++k) {
         const glm::dvec3 edge = ring[k + 1 < ring.size() ? k + 1 : 0] - ring[k];
-        const double length = glm::length(edge);
-        if (length == 0.0) continue;
-        const glm::dvec3 outwards = glm::cross(edge / length, normal);
+        const glm::dvec3 outwards = glm::cross(glm::normalize(edge), normal);
         for (const glm::dvec3& corner : ring)
             if (glm::dot(outwards, corner - ring[k]) > tolerance) return false;
     }
     return true;
 }
 
+/// Whether b lies beside the line from a to c, or behind one of them.
+bool turns(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+    const glm::dvec3 line = c - a, d = b - a;
+    const double along = glm::dot(line, line) > 0.0 ? glm::dot(d, line) / glm::dot(line, line) : 0.0;
+    return glm::distance(d, std::clamp(along, 0.0, 1.0) * line) > kStraight;
+}
+
 } // namespace
+
+Ring3 withoutStraightCorners(const Ring3& ring)
+{
+    Ring3 kept;
+    for (size_t k = 0; k < ring.size(); ++k) {
+        const glm::dvec3 &before = kept.empty() ? ring.back() : kept.back(),
+                         &after = ring[k + 1 < ring.size() ? k + 1 : 0];
+        if (turns(before, ring[k], after)) kept.push_back(ring[k]);
+    }
+    return kept;
+}
 
 std::vector<u8> filledNodes(const NodeTree& tree, double tolerance)
 {
@@ -29,8 +49,10 @@ std::vector<u8> filledNodes(const NodeTree& tree, double tolerance)
         const Node& node = tree.nodes[i];
         if (node.kind != NodeKind::Tiling) continue;
         const std::span<const Ring3> rings = tree.outlineOf(i);
-        filled[i] = rings.size() == 1 && rings[0].size() >= 3 && rings[0].size() <= kFilledCorners &&
-                    isConvex(rings[0], node.normal, tolerance);
+        if (rings.size() != 1) continue;
+        const Ring3 outline = withoutStraightCorners(rings[0]);
+        filled[i] =
+            outline.size() >= 3 && outline.size() <= kFilledCorners && isConvex(outline, node.normal, tolerance);
     }
     for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
         for (u32 i = patch; i != kNoIndex && tree.nodes[i].kind != NodeKind::Cluster; i = tree.nodes[i].parent) {

@@ -122,8 +122,8 @@ struct Points
     const Double4 cosine = a.x * b.x + a.y * b.y + a.z * b.z, sine2 = cx * cx + cy * cy + cz * cz;
     Double4 length = sine2 + cosine * cosine; // both scaled by |a| |b|
     takeRoot(length);
-    const Double4 base = length + cosine, tiny = Double4{} + 1e-300;
-    const Double4 first = base > tiny ? base : tiny; // tan(angle / 2) = sine / first
+    const Double4 base = length + cosine, tiny = Double4{} + 1e-100; // its square is a number too
+    const Double4 first = base > tiny ? base : tiny;                 // tan(angle / 2) = sine / first
     Double4 second = 1.0 + sine2 / (first * first);
     takeRoot(second);
     second += 1.0;

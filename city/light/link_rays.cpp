@@ -108,27 +108,34 @@ void LinkRays::shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& sh
     }
 }
 
-void LinkRays::shootNear(Tally& tally, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const
+void LinkRays::shootNear(Tally& tally, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays,
+                         Between between) const
 {
     // Points that are uniform on both would seldom be near each other, yet near points exchange most: directions by the
     // cosine from the smaller one find them. All that reach the larger one's outline count alike.
     const glm::dvec3 &normal = tree_.nodes[small].normal, &other = tree_.nodes[large].normal,
                      &onPlane = tree_.nodes[large].centroid;
     const PlaneFrame frame = planeFrame(normal);
-    const u32 end = tally.rays + rays;
-    for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && tally.rays < end; --tries, ++tally.next) {
+    std::array<glm::dvec3, kMostRays> p, q;
+    std::array<bool, kMostRays> blocked;
+    u32 count = 0;
+    for (u32 tries = u32(2.0 * double(rays) / kNearFactor); tries > 0 && count < rays; --tries, ++tally.next) {
         const std::array<double, 4> x = shiftedSobol4(tally.next, shift);
         const glm::dvec3 direction = cosineDirection(frame, x[0], x[1]);
         const double facing = -glm::dot(other, direction);
         if (facing <= 0.0) continue;
-        const glm::dvec3 p = pointIn(small, x[2], x[3]);
-        const double height = glm::dot(other, p - onPlane);
+        p[count] = pointIn(small, x[2], x[3]);
+        const double height = glm::dot(other, p[count] - onPlane);
         if (height <= 0.0) continue;
-        const glm::dvec3 q = p + height / facing * direction;
-        if (!isInside(q, tree_.outlineOf(large), other)) continue;
+        q[count] = p[count] + height / facing * direction;
+        if (isInside(q[count], tree_.outlineOf(large), other)) ++count;
+    }
+    block(std::span(p).first(count), normal, std::span(q).first(count), other, between,
+          std::span(blocked).first(count));
+    for (u32 k = 0; k < count; ++k) {
         ++tally.rays;
         tally.weight += 1.0;
-        if (!visibility_.isBlocked(p, normal, q, other)) tally.open += 1.0;
+        if (!blocked[k]) tally.open += 1.0;
     }
 }
 
@@ -143,7 +150,7 @@ OpenShare LinkRays::openShare(u32 a, u32 b, double transfer, u32 rays, double st
     for (u32 asked = 0;;) {
         const u32 batch = std::min(std::max(asked, rays), kMostRays); // doubles the number, as far as one batch holds
         if (near)
-            shootNear(tally, small, large, shift, batch);
+            shootNear(tally, small, large, shift, batch, between);
         else
             shootFar(tally, a, b, shift, batch, between);
         asked += batch;

@@ -69,7 +69,8 @@ private:
 
     glm::dvec3 pointIn(u32 node, double u, double v) const;
     void shootFar(Tally& tally, u32 a, u32 b, const std::array<u32, 4>& shift, u32 rays, Between between) const;
-    void shootNear(Tally& tally, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays) const;
+    void shootNear(Tally& tally, u32 small, u32 large, const std::array<u32, 4>& shift, u32 rays,
+                   Between between) const;
     void block(std::span<const glm::dvec3> from, const glm::dvec3& fromNormal, std::span<const glm::dvec3> to,
                const glm::dvec3& toNormal, Between between, std::span<bool> blocked) const;
 

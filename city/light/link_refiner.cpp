@@ -22,8 +22,9 @@ constexpr float kExactDistance = 1.25f; // in sums of radii: nearer parts exchan
 constexpr u32 kFirstRays = 16;          // of a pair of which nothing is known
 constexpr u32 kKnown = 24;              // rays of the pairs above, all open or all blocked, after which few more do
 constexpr u32 kFewRays = 2;
-constexpr size_t kMostBetween = 256;
-constexpr u32 kWholeRays = 8; // of a link that is not judged by its parts
+constexpr size_t kMostBetween = 256; // nodes that may stand between a pair; where there are more,
+constexpr double kRetry = 0.5;       // they are looked for again when the pair has shrunk to this size
+constexpr u32 kWholeRays = 8;        // of a link that is not judged by its parts
 
 double squaredRatio(double a, double b)
 {
@@ -279,28 +280,28 @@ LinkRays::Between LinkRefiner::betweenOf(const Sight& sight) const
 void LinkRefiner::refine(u32 a, u32 b)
 {
     between_.clear();
-    Sight sight;
-    sight.listed = s_.occluders.find(a, b, kMostBetween, between_);
-    sight.end = between_.size();
-    refineSeen(a, b, {kToA | kToB, kToA | kToB}, sight);
+    refine(a, b, {kToA | kToB, kToA | kToB}, Sight{});
 }
 
 void LinkRefiner::refine(u32 a, u32 b, Directions directions, Sight sight)
 {
+    ++evaluated_;
     if (!s_.transfer.faceEachOther(a, b)) return;
     const size_t mark = between_.size();
     if (sight.listed) {
         s_.occluders.narrow(a, b, sight.begin, sight.end, between_);
-        sight.begin = mark;
-        sight.end = between_.size();
+    } else if (const double size = s_.transfer.radius(a) + s_.transfer.radius(b); size < kRetry * sight.size) {
+        sight.listed = s_.occluders.find(a, b, kMostBetween, between_);
+        sight.size = size;
     }
+    sight.begin = mark;
+    sight.end = between_.size();
     refineSeen(a, b, directions, sight);
     between_.resize(mark);
 }
 
 void LinkRefiner::refineSeen(u32 nodeA, u32 nodeB, Directions directions, Sight sight)
 {
-    ++evaluated_;
     const NodeTree& tree = s_.tree;
     const bool leafA = tree.isLeaf(nodeA), leafB = tree.isLeaf(nodeB);
     if (leafA && leafB) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "city/light/link_kernel.h"
 #include "city/light/link_rays.h"
@@ -42,7 +43,7 @@ public:
     /// About the links that a larger epsilon would have left, which the refinement passes on its way (pairs too faint
     /// to be looked at are linked in both sets alike): what the two sets differ by tells the error of the finer one.
     std::vector<NodeLink> takeCoarseLinks() { return std::move(coarseLinks_); }
-    u64 evaluated() const { return evaluated_; }
+    u64 evaluated() const { return evaluated_; } ///< pairs looked at, those that do not face each other included
 
 private:
     /// What the pairs above a pair say of it.
@@ -51,6 +52,7 @@ private:
         KnownRays rays;      ///< none if they were mixed
         bool listed = false; ///< what may stand between is known: places [begin, end) of between_
         size_t begin = 0, end = 0;
+        double size = std::numeric_limits<double>::infinity(); ///< m, of the pair that was last asked for it
 
         bool isClear() const { return listed && begin == end; }
         u32 known() const { return std::max(rays.open, rays.blocked); }
@@ -97,6 +99,7 @@ private:
 
     const NodeParts& partsOf(u32 node);
     void refine(u32 a, u32 b, Directions directions, Sight sight);
+    /// The same for a pair that faces each other, with what stands between it.
     void refineSeen(u32 a, u32 b, Directions directions, Sight sight);
     /// Puts the exact exchange where parts are so near that points do not tell it.
     void weighNearParts(Pair& pair) const;

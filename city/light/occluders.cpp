@@ -11,6 +11,7 @@
 #include "city/base/check.h"
 #include "city/base/lanes.h"
 #include "city/light/filled_nodes.h"
+#include "city/light/sky.h"
 
 namespace helio {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::max();
 
 /// Rectangle around rings in the plane of a node.
-std::array<glm::dvec3, 4> rectangleAround(std::span<const Ring3> rings, const Node& node)
+Ring3 rectangleAround(std::span<const Ring3> rings, const Node& node)
 {
     const PlaneFrame frame = planeFrame(node.normal);
     glm::dvec2 low(std::numeric_limits<double>::max()), high(-low);
@@ -41,60 +42,76 @@ struct Occluders::Shaft
     std::array<Bound, 2 * kFilledCorners + 2> sides;
     u32 count = 0;
     u32 rootA = 0, rootB = 0;
+    float slack = 0.0f; // m: how far beyond the sides patches of the nodes may lie
     std::array<std::span<const glm::vec3>, 2> ends;
 };
 
 Occluders::Occluders(const NodeTree& tree, const Visibility& visibility)
-    : tree_(tree), tolerance_(float(visibility.lift())), origin_(visibility.origin()), polygons_(tree.nodeCount())
+    : tree_(tree), tolerance_(float(visibility.lift())), origin_(visibility.origin()), polygons_(tree.nodeCount()),
+      root_(planarRoots(tree))
 {
-    const std::vector<u8> filled = filledNodes(tree, visibility.lift());
     std::vector<u32> roots;
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         if (tree.nodes[i].kind == NodeKind::Cluster) continue;
-        addPolygon(i, filled[i] != 0, tree.isLeaf(i) ? visibility.trianglesOf(i) : std::span<const glm::vec3>{});
-        if (tree.isPlanarRoot(i)) roots.push_back(i);
+        addPolygon(i, visibility);
+        if (root_[i] == i) roots.push_back(i);
     }
-    corners_.resize(edges_.size());
+    measureSlack();
     if (!roots.empty()) build(roots);
 }
 
-void Occluders::addEdges(std::span<const glm::vec3> corners, const glm::vec3& normal)
+void Occluders::addEdges(std::span<const glm::dvec3> corners, const glm::dvec3& normal)
 {
     for (size_t k = 0; k < corners.size(); ++k) {
-        const glm::vec3 edge = corners[k + 1 < corners.size() ? k + 1 : 0] - corners[k];
-        const float length = glm::length(edge);
-        const glm::vec3 n = length > 0.0f ? glm::cross(edge / length, normal) : glm::vec3(0.0f);
-        edges_.push_back({n, glm::dot(n, corners[k])});
+        const glm::dvec3 edge = corners[k + 1 < corners.size() ? k + 1 : 0] - corners[k],
+                         out = glm::normalize(glm::cross(edge, normal));
+        edges_.push_back({glm::vec3(out), float(glm::dot(out, corners[k]))});
     }
 }
 
-void Occluders::addPolygon(u32 i, bool filled, std::span<const glm::vec3> triangles)
+void Occluders::addPolygon(u32 i, const Visibility& visibility)
 {
     const Node& node = tree_.nodes[i];
+    const bool filled = visibility.isFilled(i);
     Polygon& polygon = polygons_[i];
-    polygon.plane.normal = glm::vec3(node.normal);
-    polygon.plane.offset = float(glm::dot(node.normal, node.centroid - origin_));
-    std::vector<glm::vec3> corners;
-    if (filled) {
-        for (const glm::dvec3& corner : tree_.outlineOf(i)[0]) corners.emplace_back(corner - origin_);
-    } else {
-        for (const glm::dvec3& corner : rectangleAround(tree_.outlineOf(i), node))
-            corners.emplace_back(corner - origin_);
-    }
-    polygon.begin = u32(edges_.size());
-    addEdges(corners, polygon.plane.normal);
-    polygon.end = u32(edges_.size());
-    corners_.resize(polygon.begin);
+    polygon.plane = {glm::vec3(node.normal), float(glm::dot(node.normal, node.centroid - origin_))};
+    Ring3 corners = filled ? withoutStraightCorners(tree_.outlineOf(i)[0]) : rectangleAround(tree_.outlineOf(i), node);
+    for (glm::dvec3& corner : corners) corner -= origin_;
+    polygon.begin = u32(corners_.size());
     corners_.insert(corners_.end(), corners.begin(), corners.end());
+    polygon.end = u32(corners_.size());
+    polygon.edgeBegin = u32(edges_.size());
+    addEdges(corners, node.normal);
 
     polygon.pieceBegin = u32(pieces_.size());
-    if (filled) pieces_.push_back({polygon.begin, polygon.end});
-    for (size_t t = 0; t < triangles.size() && !filled; t += 3) {
-        const u32 begin = u32(edges_.size());
-        addEdges(triangles.subspan(t, 3), polygon.plane.normal);
-        pieces_.push_back({begin, u32(edges_.size())});
+    if (filled) {
+        pieces_.push_back({polygon.edgeBegin, u32(edges_.size())});
+    } else if (tree_.isLeaf(i)) {
+        const std::span<const glm::vec3> triangles = visibility.trianglesOf(i);
+        for (size_t t = 0; t < triangles.size(); t += 3) {
+            const std::array<glm::dvec3, 3> triangle{triangles[t], triangles[t + 1], triangles[t + 2]};
+            const glm::dvec3 area = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+            if (!(glm::dot(area, node.normal) > 0.0)) continue; // rounded to a line
+            const u32 begin = u32(edges_.size());
+            addEdges(triangle, node.normal);
+            pieces_.push_back({begin, u32(edges_.size())});
+        }
     }
     polygon.pieceEnd = u32(pieces_.size());
+}
+
+void Occluders::measureSlack()
+{
+    for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
+        for (u32 i = patch;; i = tree_.nodes[i].parent) {
+            const Node& node = tree_.nodes[i];
+            for (const Ring3& ring : tree_.outlineOf(patch))
+                for (const glm::dvec3& corner : ring)
+                    polygons_[i].slack =
+                        std::max(polygons_[i].slack, float(std::abs(glm::dot(node.normal, corner - node.centroid))));
+            if (root_[i] == i) break;
+        }
+    }
 }
 
 void Occluders::build(std::span<u32> roots)
@@ -104,8 +121,8 @@ void Occluders::build(std::span<u32> roots)
     glm::vec3 low(kFar), high(-kFar);
     for (const u32 root : roots) {
         for (const glm::vec3& corner : cornersOf(root)) {
-            low = glm::min(low, corner);
-            high = glm::max(high, corner);
+            low = glm::min(low, corner - polygons_[root].slack);
+            high = glm::max(high, corner + polygons_[root].slack);
         }
     }
     branches_[at].low = low;
@@ -125,12 +142,6 @@ void Occluders::build(std::span<u32> roots)
     branches_[at].next = u32(branches_.size());
 }
 
-u32 Occluders::planarRootOf(u32 node) const
-{
-    while (!tree_.isPlanarRoot(node)) node = tree_.nodes[node].parent;
-    return node;
-}
-
 void Occluders::addSides(Shaft& shaft, u32 node, std::span<const glm::vec3> others) const
 {
     const Polygon& own = polygons_[node];
@@ -140,16 +151,16 @@ void Occluders::addSides(Shaft& shaft, u32 node, std::span<const glm::vec3> othe
         height[k] = glm::dot(own.plane.normal, others[k]) - own.plane.offset;
         behind = behind || height[k] < -tolerance_;
     }
-    for (u32 e = own.begin; e < own.end; ++e) {
-        const auto& [normal, offset] = edges_[e];
+    for (u32 k = 0; k < own.end - own.begin; ++k) {
+        const auto& [normal, offset] = edges_[own.edgeBegin + k];
         // The plane through this edge that leans out as far as the other polygon does. None if that one reaches past
         // the edge where it stands in or crosses the plane of the node.
         float lean = -kFar;
         bool open = false;
-        for (size_t k = 0; k < others.size() && !open; ++k) {
-            const float out = glm::dot(normal, others[k]) - offset;
-            open = out > tolerance_ && (behind || height[k] <= tolerance_);
-            if (height[k] > tolerance_) lean = std::max(lean, out / height[k]);
+        for (size_t other = 0; other < others.size() && !open; ++other) {
+            const float out = glm::dot(normal, others[other]) - offset;
+            open = out > tolerance_ && (behind || height[other] <= tolerance_);
+            if (height[other] > tolerance_) lean = std::max(lean, out / height[other]);
         }
         if (open || lean == -kFar) continue;
         const float length = std::sqrt(1.0f + lean * lean);
@@ -161,8 +172,9 @@ void Occluders::addSides(Shaft& shaft, u32 node, std::span<const glm::vec3> othe
 Occluders::Shaft Occluders::shaftOf(u32 a, u32 b) const
 {
     Shaft shaft;
-    shaft.rootA = planarRootOf(a);
-    shaft.rootB = planarRootOf(b);
+    shaft.rootA = root_[a];
+    shaft.rootB = root_[b];
+    shaft.slack = std::max(polygons_[a].slack, polygons_[b].slack);
     shaft.ends = {cornersOf(a), cornersOf(b)};
     for (const u32 node : {a, b}) {
         const Bound& plane = polygons_[node].plane; // what is behind a node does not count
@@ -184,12 +196,13 @@ bool Occluders::reachesInto(u32 node, const Shaft& shaft) const
             high = std::max(high, height);
         }
     }
-    if (low >= -tolerance_ || high <= tolerance_) return false; // both ends on one side of it
+    const float margin = shaft.slack + polygons_[node].slack - tolerance_;
+    if (low >= margin || high <= -margin) return false; // both ends on one side of it
     for (u32 k = 0; k < shaft.count; ++k) {
         const Bound& side = shaft.sides[k];
         float lowest = kFar;
         for (const glm::vec3& corner : cornersOf(node)) lowest = std::min(lowest, glm::dot(side.normal, corner));
-        if (lowest >= side.offset - tolerance_) return false;
+        if (lowest >= side.offset + margin) return false;
     }
     return true;
 }
@@ -215,7 +228,7 @@ bool Occluders::find(u32 a, u32 b, size_t most, std::vector<u32>& found) const
             const glm::vec3 lowest(side.normal.x > 0.0f ? branch.low.x : branch.high.x,
                                    side.normal.y > 0.0f ? branch.low.y : branch.high.y,
                                    side.normal.z > 0.0f ? branch.low.z : branch.high.z);
-            outside = glm::dot(side.normal, lowest) >= side.offset - tolerance_;
+            outside = glm::dot(side.normal, lowest) >= side.offset + shaft.slack - tolerance_;
         }
         if (!outside && branch.node != kNoIndex) {
             sift(branch.node, shaft, found);
@@ -276,9 +289,9 @@ HELIO_LANES void Occluders::block(std::span<const u32> nodes, std::span<const gl
                 for (u32 e = pieces_[piece].begin; e < pieces_[piece].end; ++e) {
                     const glm::vec3& m = edges_[e].normal;
                     const Float8 above = m.x * px + m.y * py + m.z * pz - edges_[e].offset;
-                    outside = outside > above ? outside : above;
+                    outside = above > outside ? above : outside; // what is no number does not count
                 }
-                nearest = nearest < outside ? nearest : outside;
+                nearest = outside < nearest ? outside : nearest;
             }
         }
         for (size_t k = 0; k < count; ++k) blocked[first + k] = nearest[k] <= 0.0f;

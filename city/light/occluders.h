@@ -13,12 +13,12 @@ namespace helio {
 class Occluders
 {
 public:
-    /// Takes over what `visibility` ignores: what reaches into a shaft, or lies before a plane, by less than its lift
-    /// does not block.
+    /// `visibility` of the same tree: its lift is the tolerance (what reaches into a shaft, or lies before a plane, by
+    /// less does not block), its filled nodes are those that block as one polygon.
     Occluders(const NodeTree& tree, const Visibility& visibility);
 
-    /// Appends to `found` at most `most` planar nodes that may stand between two planar nodes, the highest that
-    /// filledNodes() tells and else leaves. False if there are more.
+    /// Appends to `found` at most `most` planar nodes that may stand between two planar nodes, the highest that are
+    /// filled and else leaves. False if there are more.
     bool find(u32 a, u32 b, size_t most, std::vector<u32>& found) const;
     /// The same from the nodes at places [begin, end) of `found`, which stand between nodes that a and b are parts of.
     void narrow(u32 a, u32 b, size_t begin, size_t end, std::vector<u32>& found) const;
@@ -41,7 +41,9 @@ private:
     struct Polygon
     {
         Bound plane;
-        u32 begin = 0, end = 0;           ///< into corners_ and edges_
+        float slack = 0.0f;               ///< m: how far corners of the patches below lie off the plane
+        u32 begin = 0, end = 0;           ///< into corners_
+        u32 edgeBegin = 0;                ///< into edges_: of as many edges
         u32 pieceBegin = 0, pieceEnd = 0; ///< into pieces_: convex ones that make up the node; of inner ones that are
                                           ///< not filled, none
     };
@@ -58,14 +60,14 @@ private:
         u32 node = kNoIndex; ///< planar root, where nothing is below
     };
 
-    void addPolygon(u32 node, bool filled, std::span<const glm::vec3> triangles);
-    void addEdges(std::span<const glm::vec3> corners, const glm::vec3& normal);
+    void addPolygon(u32 node, const Visibility& visibility);
+    void addEdges(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
+    void measureSlack();
     void build(std::span<u32> roots);
     std::span<const glm::vec3> cornersOf(u32 node) const
     {
         return std::span(corners_).subspan(polygons_[node].begin, polygons_[node].end - polygons_[node].begin);
     }
-    u32 planarRootOf(u32 node) const;
     Shaft shaftOf(u32 a, u32 b) const;
     void addSides(Shaft& shaft, u32 node, std::span<const glm::vec3> others) const;
     bool reachesInto(u32 node, const Shaft& shaft) const;
@@ -75,7 +77,8 @@ private:
     float tolerance_;
     glm::dvec3 origin_{0.0};         ///< the scene's middle: floats are relative to it
     std::vector<Polygon> polygons_;  ///< per node, empty for clusters
-    std::vector<glm::vec3> corners_; ///< of polygons, at the places of their edges
+    std::vector<u32> root_;          ///< planarRoots()
+    std::vector<glm::vec3> corners_; ///< of the polygons
     std::vector<Bound> edges_;       ///< inner sides: of polygons, and of pieces that are not the polygon
     std::vector<Piece> pieces_;
     std::vector<Branch> branches_; ///< boxes around the planar roots, parents first

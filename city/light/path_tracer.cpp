@@ -74,6 +74,10 @@ public:
             sum.sun += sunAt(patch, start, random);
             const glm::dvec3 direction = cosineDirection(frame, x[0], x[1]);
             ++rays;
+            if (options_.firstHand) {
+                if (!visibility_.isBlocked(start, frame.normal, direction)) sum.sky += outside(direction);
+                continue;
+            }
             const RayHit hit = visibility_.trace(start, frame.normal, direction);
             if (hit.patch == kNoIndex)
                 sum.sky += outside(direction);

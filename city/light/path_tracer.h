@@ -16,8 +16,9 @@ struct PathOptions
     /// Reflectance of an endless plain that paths meet when they leave below the horizon, in the sun and under the sky
     /// with nothing before them; 0 = black.
     glm::dvec4 farGround{0.0};
-    bool emission = true; ///< what patches emit themselves
-    u32 samples = 256;    ///< paths a patch, at least 2
+    bool emission = true;   ///< what patches emit themselves
+    bool firstHand = false; ///< the light of sun and sky alone, in a fraction of the time: E_indirect is 0
+    u32 samples = 256;      ///< paths a patch, at least 2
     u64 seed = 1;
     u32 jobs = 0; ///< threads, 0 = all cores; the result does not depend on it
     /// Gets the fraction done, from one thread at a time; false ends the work early. May be empty.

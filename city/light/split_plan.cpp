@@ -19,7 +19,9 @@ namespace helio {
 namespace {
 
 constexpr u32 kFewestCells = 16, kMostCells = 4096;
-constexpr double kLargeCell = 0.5; // m2: patches whose cells would be larger get more of them, with fewer points each
+/// m2: patches whose cells would be larger get more of them, with fewer points each; and again, smaller ones, where
+/// more than this share of the squared light that shall stay unresolved is left inside them.
+constexpr double kLargeCell = 0.5, kSmallCell = 0.05, kInCellsEnough = 8.0;
 /// Of the squared light inside cells, as four points a cell estimate it, what shows in E_indirect (scenes S and M).
 constexpr double kInCells = 0.25;
 constexpr size_t kMostSuns = 32;
@@ -37,7 +39,7 @@ struct Grid
 };
 
 /// The rectangle along the longest edge of the outline.
-Grid gridOf(const NodeTree& tree, u32 patch)
+Grid gridOf(const NodeTree& tree, u32 patch, double largeCell)
 {
     const std::span<const Ring3> rings = tree.outlineOf(patch);
     const glm::dvec3 normal = tree.nodes[patch].normal;
@@ -66,7 +68,7 @@ Grid gridOf(const NodeTree& tree, u32 patch)
     grid.width = high.x - low.x;
     grid.height = high.y - low.y;
     u32 cells = kFewestCells;
-    while (cells < kMostCells && grid.width * grid.height > kLargeCell * double(cells)) cells *= 4;
+    while (cells < kMostCells && grid.width * grid.height > largeCell * double(cells)) cells *= 4;
     // As square as so many cells can be.
     while (grid.cellCount() < cells) (grid.width * grid.nv >= grid.height * grid.nu ? grid.nu : grid.nv) *= 2;
     return grid;
@@ -170,11 +172,11 @@ public:
         parallelFor(count, 128, options_.jobs, [&](u32 begin, u32 end) {
             for (u32 patch = begin; patch < end; ++patch) {
                 if (tree_.patches[patch].covered) continue;
-                grids_[patch] = gridOf(tree_, patch);
-                samples_[patch] = sampleOf(tree_, visibility_, suns_, patch, grids_[patch]);
+                sample(patch, kLargeCell);
             }
         });
         weigh();
+        sampleFiner();
         std::vector<Choice> first(count);
         parallelFor(count, 256, options_.jobs, [&](u32 begin, u32 end) {
             for (u32 patch = begin; patch < end; ++patch) {
@@ -209,10 +211,31 @@ private:
         }
     };
 
+    void sample(u32 patch, double largeCell)
+    {
+        grids_[patch] = gridOf(tree_, patch, largeCell);
+        samples_[patch] = sampleOf(tree_, visibility_, suns_, patch, grids_[patch]);
+    }
+
+    /// Where much is left inside the cells of a patch: smaller ones. A parapet of a hand's breadth shades as wide a
+    /// band of the roof that it looks at.
+    void sampleFiner()
+    {
+        const double enough = kInCellsEnough * options_.unresolved * options_.unresolved;
+        parallelFor(tree_.patchCount(), 128, options_.jobs, [&](u32 begin, u32 end) {
+            for (u32 patch = begin; patch < end; ++patch)
+                if (grids_[patch].cellCount() > kFewestCells &&
+                    kInCells * errorInCells(patch) > enough * tree_.patches[patch].area)
+                    sample(patch, kSmallCell);
+        });
+        weigh();
+    }
+
     /// What the lit shares count: unit2 and square of all samples, units being rho cos(theta) / mean light.
     void weigh()
     {
         std::vector<double> mean(suns_.size(), 0.0);
+        area_ = 0.0;
         for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
             const Patch& p = tree_.patches[patch];
             area_ += p.area;
@@ -225,6 +248,7 @@ private:
         }
         for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
             Samples& s = samples_[patch];
+            s.unit2.clear();
             for (const u32 sun : s.suns) {
                 const double unit =
                     mean[sun] > 0.0 ? tree_.patches[patch].rho.w * cosine(patch, sun) * area_ / mean[sun] : 0.0;

@@ -10,7 +10,7 @@ namespace helio {
 std::vector<double> raySun(const NodeTree& tree, const Visibility& visibility, const glm::dvec3& toSun, u32 samples,
                            u32 jobs = 0);
 
-/// The same for several suns, one after another.
+/// The same for several suns: [sun][patch].
 std::vector<std::vector<double>> raySuns(const NodeTree& tree, const Visibility& visibility,
                                          std::span<const glm::dvec3> toSuns, u32 samples, u32 jobs = 0);
 

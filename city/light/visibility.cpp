@@ -138,6 +138,7 @@ struct Visibility::Scene
     std::vector<u32> patchOfTriangle;
     std::vector<float> areaUpTo; // share of the patch's area up to and with each triangle
 
+    std::vector<u8> filled;                // per node, see filledNodes()
     std::vector<glm::vec3> blockerCorners; // of the triangles that stand for them, three each
     std::vector<u32> nodeOfBlocker;
     std::unique_ptr<RayStructure> blockers;
@@ -170,21 +171,21 @@ struct Visibility::Scene
     }
 
     /// A filled node as a fan, another one by what is below it.
-    void addBlockers(const NodeTree& tree, std::span<const u8> filled, u32 node)
+    void addBlockers(const NodeTree& tree, u32 node)
     {
         const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
             for (const glm::vec3& corner : {a, b, c}) blockerCorners.push_back(corner);
             nodeOfBlocker.push_back(node);
         };
         if (filled[node] != 0) {
-            const Ring3& ring = tree.outlineOf(node)[0];
+            const Ring3 ring = withoutStraightCorners(tree.outlineOf(node)[0]);
             const auto corner = [&](size_t k) { return glm::vec3(ring[k] - origin); };
             for (size_t k = 1; k + 1 < ring.size(); ++k) add(corner(0), corner(k), corner(k + 1));
         } else if (tree.isLeaf(node)) {
             for (size_t t = triangleBegin[node]; t < triangleBegin[node + 1]; ++t)
                 add(corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]);
         } else {
-            for (const u32 child : tree.childrenOf(node)) addBlockers(tree, filled, child);
+            for (const u32 child : tree.childrenOf(node)) addBlockers(tree, child);
         }
     }
 
@@ -212,9 +213,9 @@ Visibility::Visibility(const NodeTree& tree) : scene_(std::make_unique<Scene>())
     const double extent = tree.rings.empty() ? 1.0 : glm::length(0.5 * (high - low));
     s.lift = 16.0 * extent * double(std::numeric_limits<float>::epsilon());
     s.addPatches(tree);
-    const std::vector<u8> filled = filledNodes(tree, kOffPlane * s.lift);
+    s.filled = filledNodes(tree, kOffPlane * s.lift);
     for (u32 i = 0; i < tree.nodeCount(); ++i)
-        if (tree.isPlanarRoot(i)) s.addBlockers(tree, filled, i);
+        if (tree.isPlanarRoot(i)) s.addBlockers(tree, i);
     for (std::vector<glm::vec3>* all : {&s.corners, &s.blockerCorners}) all->emplace_back(0.0f);
     s.blockers = std::make_unique<RayStructure>(s.blockerCorners);
 }
@@ -230,6 +231,11 @@ std::span<const glm::vec3> Visibility::trianglesOf(u32 patch) const
 {
     const size_t begin = scene_->triangleBegin[patch], end = scene_->triangleBegin[patch + 1];
     return std::span(scene_->corners).subspan(3 * begin, 3 * (end - begin));
+}
+
+bool Visibility::isFilled(u32 node) const
+{
+    return scene_->filled[node] != 0;
 }
 
 double Visibility::lift() const

@@ -64,6 +64,8 @@ public:
     glm::dvec3 origin() const;
     /// The triangles of a patch, three corners each, m, relative to origin().
     std::span<const glm::vec3> trianglesOf(u32 patch) const;
+    /// Whether a node blocks as one polygon: filledNodes() with a quarter of the lift.
+    bool isFilled(u32 node) const;
     /// How far rays start off a surface, m: what is nearer to it does not block them.
     double lift() const;
     u32 triangleCount() const; ///< of what blocks

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
-#include <numbers>
 
 #include "city/base/check.h"
 #include "city/base/parallel.h"

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 
 #include "city/base/hash.h"
 #include "city/light/filled_nodes.h"
@@ -19,6 +21,7 @@ using namespace helio::test;
 namespace {
 
 const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+constexpr double kPi = std::numbers::pi;
 
 /// A patch and the planar nodes above it, the root last.
 std::vector<u32> upwards(const NodeTree& tree, u32 patch)
@@ -38,8 +41,10 @@ void makeL(NodeTree& tree, u32 root, const Ring3& outline)
     node.coverage = 1.0;
 }
 
-/// Turned boxes of several heights on a ground, and a screen in the shape of an L, cut in three.
-NodeTree town()
+/// Turned boxes of several heights on a ground; screens between them of one patch each: an L, a tenfold polygon, one
+/// with an edge that floats cannot tell, two that share a plane but for a quarter of a degree; and last an L cut in
+/// three.
+NodeTree town(const glm::dvec3& offset)
 {
     std::vector<Face> faces = grid({-30, -30, 0}, 60.0 * kX, 60.0 * kY, 4, 4, {{}, 0});
     u32 group = 1;
@@ -54,14 +59,27 @@ NodeTree town()
         append(faces, grid(o + v, -v, h, 2, 2, {{}, group++}));
         append(faces, grid(o + h, u, v, 2, 1, {{}, group++}));
     }
+    const auto screenAt = [&](const glm::dvec3& at, const std::vector<glm::dvec2>& outline) {
+        Face face{{}, group++};
+        for (const glm::dvec2& x : outline) face.ring.push_back(at + x.x * kX + x.y * kZ);
+        faces.push_back(face);
+    };
+    screenAt({-10, -3, 1}, {{0, 0}, {6, 0}, {6, 2}, {2, 2}, {2, 5}, {0, 5}});
+    std::vector<glm::dvec2> ten;
+    for (u32 k = 0; k < 10; ++k) ten.push_back(3.0 * glm::dvec2(std::cos(0.2 * k * kPi), std::sin(0.2 * k * kPi)));
+    screenAt({8, -3, 4}, ten);
+    screenAt({-10, 12, 1}, {{0, 0}, {4, 0}, {4, 3}, {4 - 1e-7, 3}, {0, 3}});
+    append(faces, grid({6, 12, 0.5}, 5.0 * kX, 4.0 * kZ, 1, 1, {{}, group}));
+    append(faces,
+           grid({11, 12, 0.5}, 5.0 * (std::cos(0.0044) * kX + std::sin(0.0044) * kY), 4.0 * kZ, 1, 1, {{}, group++}));
     const glm::dvec3 o(-8, -12, 0);
     for (u32 k = 0; k < 4; ++k) // posts before the L
         append(faces, grid(o + (0.5 + 2.0 * k) * kX - kY, kX, 6.0 * kZ, 1, 1, {{}, group++}));
     const u32 screen = u32(faces.size());
     for (const glm::dvec2& at : {glm::dvec2(0, 0), glm::dvec2(4, 0), glm::dvec2(0, 3)})
         append(faces, grid(o + at.x * kX + at.y * kZ, 4.0 * kX, 3.0 * kZ, 1, 1, {{}, group}));
-    NodeTree tree = makeTree(faces);
-    const auto corner = [&](double x, double z) { return o + x * kX + z * kZ; };
+    NodeTree tree = makeTree(moved(faces, offset));
+    const auto corner = [&](double x, double z) { return offset + o + x * kX + z * kZ; };
     makeL(tree, upwards(tree, screen).back(),
           {corner(0, 0), corner(8, 0), corner(8, 3), corner(4, 3), corner(4, 6), corner(0, 6)});
     return tree;
@@ -109,18 +127,41 @@ TEST(FilledNodes, AreConvexFlatWholeAndOfOneKind)
     for (const u32 patch : {0u, 4u, 6u, 7u, 9u}) EXPECT_EQ(filled[patch], 1) << patch;
 }
 
-TEST(Occluders, LeaveOutNothingThatBlocks)
+TEST(FilledNodes, HaveAtMostEightCornersThatAreNotStraight)
 {
-    const NodeTree tree = town();
+    const auto polygon = [](u32 corners, u32 between) {
+        Face face;
+        const auto at = [&](u32 k) {
+            return glm::dvec3(std::cos(2 * kPi * k / corners), std::sin(2 * kPi * k / corners), 0.0);
+        };
+        for (u32 k = 0; k < corners; ++k)
+            for (u32 j = 0; j < between; ++j) face.ring.push_back(glm::mix(at(k), at(k + 1), double(j) / between));
+        return face;
+    };
+    EXPECT_EQ(filledNodes(makeTree({polygon(8, 1)}), 1e-3)[0], 1);
+    EXPECT_EQ(filledNodes(makeTree({polygon(9, 1)}), 1e-3)[0], 0);
+    EXPECT_EQ(filledNodes(makeTree({polygon(4, 5)}), 1e-3)[0], 1);
+    EXPECT_EQ(withoutStraightCorners(polygon(4, 5).ring).size(), 4u);
+    EXPECT_EQ(withoutStraightCorners({{0, 0, 0}, {1, 0, 0}, {1, 1e-8, 0}, {1, 1, 0}, {0, 1, 0}}).size(), 4u);
+}
+
+class OccluderLists : public testing::TestWithParam<glm::dvec3>
+{
+};
+
+TEST_P(OccluderLists, LeaveOutNothingThatBlocks)
+{
+    const NodeTree tree = town(GetParam());
     const Visibility visibility(tree);
     const Occluders occluders(tree, visibility);
     Random random(5);
     constexpr size_t kSegments = 8;
+    constexpr u32 kScreens = 12;
     u32 clear = 0, blockedSegments = 0, differing = 0, hierarchies = 0;
-    while (hierarchies < 4000) {
-        // Every third pair begins at the L, whose patches are the last.
-        const u32 patchA =
-                      hierarchies % 3 == 0 ? tree.patchCount() - 1 - pick(random, 3) : pick(random, tree.patchCount()),
+    while (hierarchies < 12000) {
+        // Every other pair begins at a screen or a post; they are the last.
+        const u32 patchA = hierarchies % 2 == 0 ? tree.patchCount() - 1 - pick(random, kScreens)
+                                                : pick(random, tree.patchCount()),
                   patchB = pick(random, tree.patchCount());
         const std::vector<u32> a = upwards(tree, patchA), b = upwards(tree, patchB);
         if (a.back() == b.back()) continue;
@@ -161,6 +202,8 @@ TEST(Occluders, LeaveOutNothingThatBlocks)
     EXPECT_GT(clear, 2000u);
     EXPECT_GT(blockedSegments, 2000u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Places, OccluderLists, testing::Values(glm::dvec3(0.0), glm::dvec3(5e5, 4.5e6, 300.0)));
 
 TEST(Occluders, SaysWhenThereAreMoreThanAskedFor)
 {

@@ -193,6 +193,25 @@ TEST(PathTracer, TheGroundBeyondIsLitBySunAndSky)
     EXPECT_LT(above.indirectError.w, 0.02 * above.indirect.w);
 }
 
+TEST(PathTracer, FirstHandLightIsThatOfWholePaths)
+{
+    std::vector<Face> faces = room({4, 3, 5}, 3, glm::dvec4(0.5), glm::dvec4(0.0));
+    std::erase_if(faces, [](const Face& face) { return face.group == 1; }); // no ceiling
+    const NodeTree open = makeTree(faces);
+    const PathOptions whole{.toSun = sunDirection(1.0, 60.0 * kDegree), .farGround = glm::dvec4(0.2), .samples = 256};
+    PathOptions firstHand = whole;
+    firstHand.firstHand = true;
+    const PathReference a = trace(open, whole), b = trace(open, firstHand);
+    for (u32 i = 0; i < open.patchCount(); ++i) {
+        EXPECT_EQ(b.patches[i].sun, a.patches[i].sun);
+        EXPECT_EQ(b.patches[i].sky, a.patches[i].sky);
+        EXPECT_EQ(b.patches[i].indirect, kBlack);
+    }
+    EXPECT_GT(a.patches[0].sky.w, 1.0);
+    EXPECT_GT(a.patches[0].indirect.w, 1.0);
+    EXPECT_LT(b.rays, a.rays / 2);
+}
+
 TEST(PathTracer, TheSunIsADisc)
 {
     const double radius = 0.26667 * kDegree, pi = std::numbers::pi;

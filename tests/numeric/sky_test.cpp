@@ -47,6 +47,10 @@ TEST(SkyDome, CellsTileTheHemisphereEvenly)
                 for (const double v : {0.01, 0.5, 0.99})
                     EXPECT_EQ(dome.cellOf(dome.pointOf(cell, u, v)), cell) << count << " cells";
             EXPECT_EQ(dome.cellOf(dome.centreOf(cell)), cell);
+            const glm::dvec3 direction = dome.pointOf(cell, 0.3, 0.8);
+            const SkyDome::Place place = dome.placeOf(direction);
+            EXPECT_EQ(place.cell, cell);
+            EXPECT_EQ(place.inside, dome.placeIn(cell, direction));
         }
         EXPECT_NEAR(projected, kPi, 1e-12);
     }

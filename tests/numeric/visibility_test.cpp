@@ -140,7 +140,7 @@ TEST(CosineDirections, EightAtATimeAgreeWithOne)
         }
         cosineDirections(frame, x, y, directions);
         for (u32 k = 0; k < kLanes; ++k) {
-            const glm::dvec3 one = cosineDirection(frame, std::min(double(x[k]), 1.0 - 0x1.0p-23), double(y[k]));
+            const glm::dvec3 one = cosineDirection(frame, std::min(double(x[k]), 1.0 - 0x1.0p-24), double(y[k]));
             raise(worst, glm::distance(directions[k], one));
             EXPECT_GT(glm::dot(directions[k], frame.normal), 0.0);
         }

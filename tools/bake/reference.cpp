@@ -72,6 +72,8 @@ CLI::App* addReferenceCommand(CLI::App& app, ReferenceOptions& options)
         ->capture_default_str();
     command->add_flag("--sun-disc", options.sunDisc, "the sun is a disc of 0.53 degrees with penumbras, not a point");
     command->add_flag("--no-emission", options.noEmission, "switch off what patches emit themselves");
+    command->add_flag("--first-hand", options.firstHand,
+                      "light of sun and sky alone, for heliopolis-render --first-light: much faster, E_indirect is 0");
     return command;
 }
 
@@ -96,6 +98,7 @@ int runReference(const ReferenceOptions& options)
                                                 .dhi = options.light.dhi,
                                                 .farGround = glm::dvec4(farGroundOf(pack->tile())),
                                                 .emission = !options.noEmission,
+                                                .firstHand = options.firstHand,
                                                 .samples = options.samples,
                                                 .seed = options.seed,
                                                 .jobs = options.jobs,
@@ -106,10 +109,11 @@ int runReference(const ReferenceOptions& options)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.clear();
     if (InterruptGuard::caught() != 0) dieOf(InterruptGuard::caught());
-    const std::string note = concat(
-        "path tracing, ", reference.samples, " paths a patch in ", reference.groups, " groups, seed ", options.seed,
-        "; sun ", options.light.sun, options.sunDisc ? " (disc)" : "", ", DNI ", options.light.dni, ", DHI ",
-        options.light.dhi, "; ", reference.cutPaths, " paths cut off after ", kMostBounces, " bounces");
+    const std::string note =
+        concat("path tracing, ", reference.samples, " paths a patch in ", reference.groups, " groups, seed ",
+               options.seed, "; sun ", options.light.sun, options.sunDisc ? " (disc)" : "", ", DNI ", options.light.dni,
+               ", DHI ", options.light.dhi, options.firstHand ? ", first-hand light alone" : "", "; ",
+               reference.cutPaths, " paths cut off after ", kMostBounces, " bounces");
     if (Status written = writeTextAtomically(options.output, tableOf(tree, reference, !options.noEmission, note));
         !written)
         return complain(written.error().message, kBadInput);

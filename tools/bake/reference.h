@@ -14,6 +14,7 @@ struct ReferenceOptions
     u64 seed = 1;
     bool sunDisc = false; ///< the sun is a disc with penumbras, not a point
     bool noEmission = false;
+    bool firstHand = false;
 };
 
 /// Adds the subcommand; `options` must outlive the parsing.

@@ -9,6 +9,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import environment  # noqa: E402
+from methods import METHODS  # noqa: E402
 
 
 def parse():
@@ -24,7 +25,7 @@ def parse():
     parser.add_argument("--parts", metavar="NAME,...", default="curves,switches,peers,scaling,figures",
                         help="only these parts: curves, switches, peers, scaling, figures; what an earlier run left in the "
                         "output folder's report.json stays for the others")
-    parser.add_argument("--methods", metavar="NAME,...", help="only these lines of the curves, as methods.py names them; the "
+    parser.add_argument("--methods", metavar="NAME;...", help="only these lines of the curves, as methods.py names them; the "
                         "others stay as an earlier run left them")
     parser.add_argument("--bin", type=pathlib.Path, default=environment.ROOT / "build" / "release" / "bin",
                         help="folder of the programs (build/release/bin)")
@@ -36,6 +37,10 @@ def parse():
         folder = getattr(options, name)
         if folder and not folder.is_dir():
             parser.error(f"--{name} {folder}: no such folder")
+    options.methods = set((options.methods or "").split(";")) - {""}
+    unknown = options.methods - {method.name for method in METHODS}
+    if unknown:
+        parser.error(f"--methods: no {'; '.join(sorted(unknown))}; there are: {'; '.join(m.name for m in METHODS)}")
     lacking = [name for name in ("heliopolis-bake", "heliopolis-render", "heliopolis-bench")
                if not (options.bin / name).exists()]
     if lacking and not options.plots_only:

@@ -44,7 +44,7 @@ def own_direct_light(programs, scene, pack, case, cache):
     if key not in cache:
         table = programs.work / f"{scene.name}.direct-{len(cache)}.csv"
         programs.run("heliopolis-bake", ["reference", pack, *light_arguments(case), "--spp", 4096 if scene.faces else 1024,
-                                         "-o", table])
+                                         "--first-hand", "-o", table])
         cache[key] = table
     return cache[key]
 
@@ -125,12 +125,14 @@ def walk(measure_at, start, growth):
     return sorted(points, key=lambda p: p["links_per_patch"])
 
 
-def curve(programs, scene, method, say, options, default):
-    """Points of one method on one scene, from few links to many. default: the point of the default bake."""
+def curve(programs, scene, method, say, options, default, direct):
+    """Points of one method on one scene, from few links to many. default: the point of the default bake; direct: tables of
+    first-hand light by patches and case, shared by all points."""
     def measure_at(threshold):
         arguments = [*method.arguments, *([] if threshold is None else [method.option, f"{threshold:.4g}"])]
         try:
-            made = point(programs, scene, arguments, say, bench_repeats=1 if method.name == BEST and scene.faces else 0)
+            made = point(programs, scene, arguments, say, bench_repeats=1 if method.name == BEST and scene.faces else 0,
+                         direct=direct)
         except Failed as failure:
             say(f"  left out: {failure}")
             return None
@@ -149,9 +151,9 @@ def curve(programs, scene, method, say, options, default):
 
 def curves(programs, scene, say, options, notes, default):
     """{method: points}, without the methods that this build lacks."""
-    result = {}
+    result, direct = {}, {}
     for method in METHODS:
-        if options.methods and method.name not in options.methods.split(","):
+        if options.methods and method.name not in options.methods:
             continue
         if (method.scenes and scene.name not in method.scenes) or (not scene.faces and options.quick):
             continue
@@ -162,7 +164,7 @@ def curves(programs, scene, say, options, notes, default):
                 notes.append(note)
             continue
         say(f"{scene.title}: {method.name}")
-        result[method.name] = curve(programs, scene, method, say, options, default)
+        result[method.name] = curve(programs, scene, method, say, options, default, direct)
     return result
 
 

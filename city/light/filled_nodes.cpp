@@ -42,12 +42,27 @@ Ring3 withoutStraightCorners(const Ring3& ring)
     return kept;
 }
 
+std::vector<double> distanceOffPlane(const NodeTree& tree)
+{
+    std::vector<double> distance(tree.nodeCount(), 0.0);
+    for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
+        for (u32 i = patch; i != kNoIndex && tree.nodes[i].kind != NodeKind::Cluster; i = tree.nodes[i].parent) {
+            const Node& node = tree.nodes[i];
+            for (const Ring3& ring : tree.outlineOf(patch))
+                for (const glm::dvec3& corner : ring)
+                    distance[i] = std::max(distance[i], std::abs(glm::dot(node.normal, corner - node.centroid)));
+        }
+    }
+    return distance;
+}
+
 std::vector<u8> filledNodes(const NodeTree& tree, double tolerance)
 {
+    const std::vector<double> offPlane = distanceOffPlane(tree);
     std::vector<u8> filled(tree.nodeCount(), 0);
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         const Node& node = tree.nodes[i];
-        if (node.kind != NodeKind::Tiling) continue;
+        if (node.kind != NodeKind::Tiling || offPlane[i] > tolerance) continue;
         const std::span<const Ring3> rings = tree.outlineOf(i);
         if (rings.size() != 1) continue;
         const Ring3 outline = withoutStraightCorners(rings[0]);
@@ -55,14 +70,8 @@ std::vector<u8> filledNodes(const NodeTree& tree, double tolerance)
             outline.size() >= 3 && outline.size() <= kFilledCorners && isConvex(outline, node.normal, tolerance);
     }
     for (u32 patch = 0; patch < tree.patchCount(); ++patch) {
-        for (u32 i = patch; i != kNoIndex && tree.nodes[i].kind != NodeKind::Cluster; i = tree.nodes[i].parent) {
-            const Node& node = tree.nodes[i];
-            if (node.covered != tree.patches[patch].covered) filled[i] = 0;
-            if (filled[i] == 0) continue;
-            for (const Ring3& ring : tree.outlineOf(patch))
-                for (const glm::dvec3& corner : ring)
-                    if (std::abs(glm::dot(node.normal, corner - node.centroid)) > tolerance) filled[i] = 0;
-        }
+        for (u32 i = patch; i != kNoIndex && tree.nodes[i].kind != NodeKind::Cluster; i = tree.nodes[i].parent)
+            if (tree.nodes[i].covered != tree.patches[patch].covered) filled[i] = 0;
     }
     return filled;
 }

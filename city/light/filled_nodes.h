@@ -13,6 +13,9 @@ constexpr u32 kFilledCorners = 8;
 /// of corners of which the next level makes one edge.
 Ring3 withoutStraightCorners(const Ring3& ring);
 
+/// Per planar node: how far corners of the patches below it lie off its plane at most, m; 0 for clusters.
+std::vector<double> distanceOffPlane(const NodeTree& tree);
+
 /// Per node, 1 if its outline can stand for its patches where something is to block: it is planar, its outline is one
 /// convex ring of at most kFilledCorners corners that the patches below fill, all their corners lie within `tolerance`
 /// (m) of its plane, and all of them are covered or none is.

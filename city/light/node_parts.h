@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "city/base/lanes.h"
 #include "city/light/linear_senders.h"
 #include "city/light/training.h"
 #include "city/light/transfer.h"
@@ -14,8 +15,8 @@ namespace helio {
 /// would get wrong about them. Unused places have area 0.
 struct NodeParts
 {
-    static constexpr u32 kMost = 8;
-    using Row = std::array<float, kMost>;
+    static constexpr u32 kMost = kLanes;
+    using Row = Row8;
 
     u32 count = 0;
     std::array<u32, kMost> node{}; ///< they make up the node; the node itself if it is a leaf or has too many children

@@ -50,13 +50,14 @@ Occluders::Occluders(const NodeTree& tree, const Visibility& visibility)
     : tree_(tree), tolerance_(float(visibility.lift())), origin_(visibility.origin()), polygons_(tree.nodeCount()),
       root_(planarRoots(tree))
 {
+    const std::vector<double> offPlane = distanceOffPlane(tree);
     std::vector<u32> roots;
     for (u32 i = 0; i < tree.nodeCount(); ++i) {
         if (tree.nodes[i].kind == NodeKind::Cluster) continue;
         addPolygon(i, visibility);
+        polygons_[i].slack = float(offPlane[i]);
         if (root_[i] == i) roots.push_back(i);
     }
-    measureSlack();
     if (!roots.empty()) build(roots);
 }
 
@@ -98,20 +99,6 @@ void Occluders::addPolygon(u32 i, const Visibility& visibility)
         }
     }
     polygon.pieceEnd = u32(pieces_.size());
-}
-
-void Occluders::measureSlack()
-{
-    for (u32 patch = 0; patch < tree_.patchCount(); ++patch) {
-        for (u32 i = patch;; i = tree_.nodes[i].parent) {
-            const Node& node = tree_.nodes[i];
-            for (const Ring3& ring : tree_.outlineOf(patch))
-                for (const glm::dvec3& corner : ring)
-                    polygons_[i].slack =
-                        std::max(polygons_[i].slack, float(std::abs(glm::dot(node.normal, corner - node.centroid))));
-            if (root_[i] == i) break;
-        }
-    }
 }
 
 void Occluders::build(std::span<u32> roots)

@@ -41,7 +41,7 @@ private:
     struct Polygon
     {
         Bound plane;
-        float slack = 0.0f;               ///< m: how far corners of the patches below lie off the plane
+        float slack = 0.0f;               ///< m, distanceOffPlane()
         u32 begin = 0, end = 0;           ///< into corners_
         u32 edgeBegin = 0;                ///< into edges_: of as many edges
         u32 pieceBegin = 0, pieceEnd = 0; ///< into pieces_: convex ones that make up the node; of inner ones that are
@@ -62,7 +62,6 @@ private:
 
     void addPolygon(u32 node, const Visibility& visibility);
     void addEdges(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
-    void measureSlack();
     void build(std::span<u32> roots);
     std::span<const glm::vec3> cornersOf(u32 node) const
     {

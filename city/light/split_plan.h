@@ -39,8 +39,10 @@ struct SplitOptions
 
 /// Finds where direct light varies inside patches that others see from near: variance of the light of `suns` x (size /
 /// distance)^2, the distance too as it is in each place, by four points a cell in 16 cells a patch, two in each of the
-/// 64 to 4096 cells of large ones. Patches are halved along a side of their bounding rectangle, the largest gain per
-/// added patch first, down to a cell; cuts lie where cells border. `mayCut` has a byte a patch: 0 = it stays whole.
+/// 64 to 4096 cells of large ones. Where much
+/// is left inside the cells of a large patch it gets smaller ones. Patches are halved along a side of their bounding
+/// rectangle, the largest gain per added patch first, down to a cell; cuts lie where cells border. `mayCut` has a byte
+/// a patch: 0 = it stays whole.
 SplitPlan planSplits(const NodeTree& tree, const Visibility& visibility, std::span<const glm::dvec3> suns,
                      std::span<const u8> mayCut, const SplitOptions& options);
 

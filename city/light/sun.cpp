@@ -25,17 +25,18 @@ std::vector<std::vector<double>> raySuns(const NodeTree& tree, const Visibility&
         for (u32 patch = begin; patch < end; ++patch) {
             if (tree.patches[patch].covered) continue;
             const glm::dvec3 normal = tree.nodes[patch].normal;
-            const std::array<u32, 4> shift = digitalShift(mixSeed(0x5a11, patch));
-            for (u32 k = 0; k < samples; ++k) {
-                const std::array<double, 4> x = shiftedSobol4(k, shift);
-                points[k] = visibility.pointOnPatch(patch, x[0], x[1]);
-            }
             seen.clear();
             directions.clear();
             for (u32 sun = 0; sun < toSuns.size(); ++sun) {
                 if (glm::dot(normal, toSuns[sun]) <= 0.0 || toSuns[sun].z <= 0.0) continue;
                 seen.push_back(sun);
                 directions.push_back(toSuns[sun]);
+            }
+            if (seen.empty()) continue;
+            const std::array<u32, 4> shift = digitalShift(mixSeed(0x5a11, patch));
+            for (u32 k = 0; k < samples; ++k) {
+                const std::array<double, 4> x = shiftedSobol4(k, shift);
+                points[k] = visibility.pointOnPatch(patch, x[0], x[1]);
             }
             visibility.areBlocked(points, normal, directions, std::span(blocked.get(), samples * seen.size()));
             for (size_t s = 0; s < seen.size(); ++s) {

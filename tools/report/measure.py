@@ -38,26 +38,26 @@ def cost_of(pack, stats):
             "linear_senders": tile.linear()}
 
 
-def own_direct_light(programs, scene, pack, case, cache):
+def own_direct_light(programs, scene, pack, case):
     """A table of the pack's own E_sun and E_sky by rays, for --first-light."""
     key = (Pack(pack).geometry_key(), case)
-    if key not in cache:
-        table = programs.work / f"{scene.name}.direct-{len(cache)}.csv"
+    if key not in scene.direct:
+        table = programs.work / f"{scene.name}.direct-{len(scene.direct)}.csv"
         programs.run("heliopolis-bake", ["reference", pack, *light_arguments(case), "--spp", 4096 if scene.faces else 1024,
                                          "--first-hand", "-o", table])
-        cache[key] = table
-    return cache[key]
+        scene.direct[key] = table
+    return scene.direct[key]
 
 
-def errors_of(programs, scene, pack, arguments=(), direct=None):
+def errors_of(programs, scene, pack, arguments=()):
     """{case: {quantity: figures}} and the solver's sweeps; "A+sky" has the total under sun and sky together."""
     errors, light, solves = {}, {}, {}
     table = programs.work / "table.csv"
     if not scene.faces and "--first-light" not in arguments:
         # The sun raster sees dormers and cornices that the traced patches lack: rays of the same patches for both.
-        arguments, direct = [*arguments, "--first-light", "@"], {} if direct is None else direct
+        arguments = [*arguments, "--first-light", "@"]
     for case in scene.cases():
-        words = [own_direct_light(programs, scene, pack, case, direct) if word == "@" else word for word in arguments]
+        words = [own_direct_light(programs, scene, pack, case) if word == "@" else word for word in arguments]
         solves[case] = programs.render(pack, [*light_arguments(case), "--table", table, "--per",
                                               "face" if scene.faces else "patch", *words])
         light[case] = read_light(table)
@@ -88,12 +88,12 @@ def worst_patches(pack, result, reference, count=12):
                          "reference_se": float(error[i].mean())} for i in order[:count]]}
 
 
-def point(programs, scene, arguments, say, bench_repeats=0, render=(), direct=None):
+def point(programs, scene, arguments, say, bench_repeats=0, render=()):
     """Bakes with these arguments and measures cost and errors."""
     pack = programs.work / f"{scene.name}.pack"
     stats = programs.bake(pack, scene.inputs, arguments)
     result = cost_of(pack, stats)
-    result["errors"], result["solves"] = errors_of(programs, scene, pack, render, direct)
+    result["errors"], result["solves"] = errors_of(programs, scene, pack, render)
     if "worst" in result["errors"]:
         result["worst"] = result["errors"].pop("worst")
     if bench_repeats:
@@ -125,14 +125,12 @@ def walk(measure_at, start, growth):
     return sorted(points, key=lambda p: p["links_per_patch"])
 
 
-def curve(programs, scene, method, say, options, default, direct):
-    """Points of one method on one scene, from few links to many. default: the point of the default bake; direct: tables of
-    first-hand light by patches and case, shared by all points."""
+def curve(programs, scene, method, say, options, default):
+    """Points of one method on one scene, from few links to many. default: the point of the default bake."""
     def measure_at(threshold):
         arguments = [*method.arguments, *([] if threshold is None else [method.option, f"{threshold:.4g}"])]
         try:
-            made = point(programs, scene, arguments, say, bench_repeats=1 if method.name == BEST and scene.faces else 0,
-                         direct=direct)
+            made = point(programs, scene, arguments, say, bench_repeats=1 if method.name == BEST and scene.faces else 0)
         except Failed as failure:
             say(f"  left out: {failure}")
             return None
@@ -151,7 +149,7 @@ def curve(programs, scene, method, say, options, default, direct):
 
 def curves(programs, scene, say, options, notes, default):
     """{method: points}, without the methods that this build lacks."""
-    result, direct = {}, {}
+    result = {}
     for method in METHODS:
         if options.methods and method.name not in options.methods:
             continue
@@ -164,13 +162,13 @@ def curves(programs, scene, say, options, notes, default):
                 notes.append(note)
             continue
         say(f"{scene.title}: {method.name}")
-        result[method.name] = curve(programs, scene, method, say, options, default, direct)
+        result[method.name] = curve(programs, scene, method, say, options, default)
     return result
 
 
 def switches(programs, scene, threshold, say, notes):
     """[{name, ...point}]: each source of error set to its reference in turn."""
-    rows, direct = [], {}
+    rows = []
     say(f"{scene.title}: sources of error")
     for switch in SWITCHES:
         bake = [*switch.bake, *(["--epsilon", (threshold or 0) * switch.finer] if switch.finer else [])]
@@ -184,7 +182,7 @@ def switches(programs, scene, threshold, say, notes):
                 notes.append(note)
             continue
         try:
-            rows.append({"name": switch.name, **point(programs, scene, bake, say, render=switch.render, direct=direct)})
+            rows.append({"name": switch.name, **point(programs, scene, bake, say, render=switch.render)})
         except Failed as failure:
             notes.append(f"Switch \"{switch.name}\" on {scene.name} failed: {failure}")
     return rows

@@ -32,6 +32,7 @@ class Scene:
         self.given = {}     # references by case that came with the scene
         self.made = {}      # (geometry, case): reference of our own path tracer
         self.cost = []      # seconds of those
+        self.direct = {}    # (geometry, case): table of a pack's own first-hand light by rays
 
     def reference_name(self):
         return "Mitsuba 3" if self.given else f"heliopolis-bake reference, {self.samples} paths a patch"

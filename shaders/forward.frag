@@ -14,7 +14,7 @@ layout(constant_id = 1) const bool kInterpolate = false;
 layout(constant_id = 2) const bool kEmitters = false;
 layout(push_constant, scalar) uniform Params { ForwardParams params; };
 layout(set = 0, binding = kForwardShadow) uniform sampler2DArray shadow;
-layout(set = 0, binding = kForwardPatches, scalar) readonly buffer Patches { PatchRecord patches[]; };
+layout(set = 0, binding = kForwardEmission, scalar) readonly buffer Emission { vec4 emission[]; };
 layout(set = 0, binding = kForwardSun, scalar) readonly buffer Sun { vec4 sun[]; };
 layout(set = 0, binding = kForwardSky, scalar) readonly buffer Sky { vec4 sky[]; };
 layout(set = 0, binding = kForwardIndirect, scalar) readonly buffer Indirect { vec4 indirect[]; };
@@ -114,7 +114,7 @@ void main()
         const vec3 fromSky = kInterpolate ? vSky : sky[vPatch].rgb;
         const vec3 bounced = kInterpolate ? vIndirect : indirect[vPatch].rgb;
         vec3 radiance = vAlbedo * (direct + fromSky * view.skyTint.rgb + bounced);
-        if (kEmitters) radiance += view.emissionScale * patches[vPatch].emission.rgb;
+        if (kEmitters) radiance += view.emissionScale * emission[vPatch].rgb;
         radiance /= kPi;
         // Distance turns to the horizon's colour.
         const float clear = exp(-length(vFromEye) * params.eye.w);

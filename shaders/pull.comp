@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Area-weighted means upwards, one level of the tree a dispatch: X_parent = sum A_child X_child / A_parent; HELIO_LINEAR: and
-// the slopes of the parent, in its own slope coordinates. Children are summed in their order, so the same input gives the
+// Area-weighted means upwards, one level of the tree a dispatch: X_parent = sum A_child X_child / A_parent; with linear senders
+// also the slopes of the parent, in its own slope coordinates. Children are summed in their order, so the same input gives the
 // same bits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -8,43 +8,47 @@
 #include "shaders/shared/records.h"
 #include "shaders/shared/solve.h"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/fetch.glsl"
+#include "shaders/lib/senders.glsl"
 
+layout(constant_id = 0) const bool kSlopes = false;
 layout(local_size_x = kSolveGroup) in;
-layout(set = 0, binding = kPullRows, scalar) readonly buffer Rows { uint childRows[]; };
-layout(set = 0, binding = kPullChildren, scalar) readonly buffer Children { ChildRecord children[]; };
-layout(set = 0, binding = kPullValues, scalar) buffer Values { vec4 values[]; };
-#ifdef HELIO_LINEAR
-layout(set = 0, binding = kPullChildSlopes, scalar) readonly buffer ChildSlopes { ChildSlopeRecord childSlopes[]; };
-layout(set = 0, binding = kPullSlopes, scalar) buffer Slopes { vec4 slopes[]; };
-#endif
-layout(push_constant, scalar) uniform Params { LevelParams params; };
+HELIO_READS_UINT(childRows, kPullRows)
+HELIO_READS_UVEC4(children, kPullChildren)
+HELIO_READS_VEC4(turns, kPullTurns)
+HELIO_READS_UVEC4(values, kPullValues)
+layout(set = 0, binding = kPullOut, scalar) writeonly buffer Out { uvec4 pulled[]; };
+layout(push_constant, scalar) uniform Params { PullParams params; };
 
 void main()
 {
     const uint k = globalIndex(kSolveGroup);
     if (k >= params.count) return;
-    const uint node = params.first + k;
-    const uint row = node - params.patchCount;
-    vec4 sum = vec4(0.0);
-#ifdef HELIO_LINEAR
-    vec4 slopeX = vec4(0.0), slopeY = vec4(0.0);
-    for (uint c = childRows[row]; c < childRows[row + 1u]; ++c) {
-        const uint child = children[c].node;
-        const vec4 part = children[c].weight * values[child];
-        const ChildSlopeRecord s = childSlopes[c];
+    const uint row = params.first + k - params.patchCount;
+    const uint end = readUint(childRows, row + 1u);
+    vec4 sum = vec4(0.0), x = vec4(0.0), y = vec4(0.0);
+    for (uint c = readUint(childRows, row); c < end; ++c) {
+        const uvec4 child = readUvec4(children, c);
+        const bool isPatch = child.x < params.patchCount;
+        const uint at = isPatch ? child.x : params.patchCount + params.stride * (child.x - params.patchCount);
+        const vec4 part = uintBitsToFloat(child.y) * uintBitsToFloat(readUvec4(values, at));
         sum += part;
-        slopeX += s.offsetX * part;
-        slopeY += s.offsetY * part;
-        if (child < params.patchCount) continue;
-        const uint inner = 2u * (child - params.patchCount);
-        const vec4 partX = children[c].weight * slopes[inner], partY = children[c].weight * slopes[inner + 1u];
-        slopeX += s.xx * partX + s.xy * partY;
-        slopeY += s.yx * partX + s.yy * partY;
+        if (kSlopes) {
+            x += uintBitsToFloat(child.z) * part;
+            y += uintBitsToFloat(child.w) * part;
+            if (isPatch) continue;
+            const vec4 turn = readVec4(turns, c);
+            const uvec4 slopes = readUvec4(values, at + 1u);
+            const vec4 partX = part * slopeX(slopes), partY = part * slopeY(slopes);
+            x += turn.x * partX + turn.y * partY;
+            y += turn.z * partX + turn.w * partY;
+        }
     }
-    slopes[2u * row] = slopeX;
-    slopes[2u * row + 1u] = slopeY;
-#else
-    for (uint c = childRows[row]; c < childRows[row + 1u]; ++c) sum += children[c].weight * values[children[c].node];
-#endif
-    values[node] = sum;
+    const uint to = params.patchCount + params.stride * row;
+    pulled[to] = floatBitsToUint(sum);
+    if (kSlopes) {
+        // Without light there is no slope either.
+        const vec4 share = mix(vec4(0.0), 1.0 / sum, greaterThan(sum, vec4(kDarkest)));
+        pulled[to + 1u] = packSlopes(share * x, share * y);
+    }
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stage 3: sums the partial residuals in a fixed order, one group.
+// Stage 3: adds up the parts of the residual in a fixed order, one group.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/solve.h"
+#include "shaders/lib/fetch.glsl"
 
 layout(local_size_x = kResidualGroup) in;
-layout(set = 0, binding = kResidualPartials, scalar) readonly buffer Partials { ResidualRecord partials[]; };
+HELIO_READS_VEC4(parts, kResidualParts)
 layout(set = 0, binding = kResidualResult, scalar) writeonly buffer Result { ResidualRecord result; };
-layout(push_constant, scalar) uniform Params { ResidualParams params; };
+layout(push_constant, scalar) uniform Params { CountParams params; };
 
 shared vec4 change[kResidualGroup];
 shared vec4 scale[kResidualGroup];
@@ -19,11 +20,11 @@ void main()
 {
     const uint lane = gl_LocalInvocationID.x;
     vec4 c = vec4(0.0), s = vec4(0.0), t = vec4(0.0), m = vec4(0.0);
-    for (uint i = lane; i < params.partialCount; i += kResidualGroup) {
-        c += partials[i].change;
-        s += partials[i].scale;
-        t += partials[i].radiosity;
-        m = max(m, partials[i].largest);
+    for (uint i = lane; i < params.count; i += kResidualGroup) {
+        c += readVec4(parts, 4u * i);
+        s += readVec4(parts, 4u * i + 1u);
+        t += readVec4(parts, 4u * i + 2u);
+        m = max(m, readVec4(parts, 4u * i + 3u));
     }
     change[lane] = c;
     scale[lane] = s;

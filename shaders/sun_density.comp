@@ -8,10 +8,11 @@
 #include "shaders/shared/disc.h"
 #include "shaders/shared/sun.h"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/fetch.glsl"
 
 layout(local_size_x = kSunGroup) in;
-layout(set = 0, binding = kSunCounts, scalar) readonly buffer Counts { uint counts[]; };
-layout(set = 0, binding = kSunPatches, scalar) readonly buffer Patches { PatchRecord patches[]; };
+HELIO_READS_UINT(counts, kSunCounts)
+HELIO_READS_VEC4(planes, kSunPlanes)
 layout(set = 0, binding = kSunDensity, scalar) writeonly buffer Density { vec4 density[]; };
 layout(push_constant, scalar) uniform Params { SunEnergyParams params; };
 
@@ -19,8 +20,9 @@ void main()
 {
     const uint i = globalIndex(kSunGroup);
     if (i >= params.patchCount) return;
-    const float cosine = discCosine(dot(patches[i].normal, params.direction), params.discRadius);
+    const vec4 plane = readVec4(planes, i);
+    const float cosine = discCosine(dot(plane.xyz, params.direction), params.discRadius);
     vec4 result = vec4(0.0);
-    if (cosine > 0.0) result.xy = vec2(float(counts[i]) * params.texelArea / patches[i].area, cosine);
+    if (cosine > 0.0) result.xy = vec2(float(readUint(counts, i)) * params.texelArea / plane.w, cosine);
     density[i] = result;
 }

@@ -4,42 +4,47 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "shaders/shared/records.h"
 #include "shaders/shared/sun.h"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/fetch.glsl"
 
 layout(local_size_x = kSunGroup) in;
-layout(set = 0, binding = kSunPatches, scalar) readonly buffer Patches { PatchRecord patches[]; };
-layout(set = 0, binding = kSunDensity, scalar) readonly buffer Density { vec4 density[]; };
-layout(set = 0, binding = kSunNodes, scalar) readonly buffer Nodes { NodeRecord nodes[]; };
+HELIO_READS_VEC4(planes, kSunPlanes)
+HELIO_READS_VEC4(density, kSunDensity)
+HELIO_READS_UVEC2(nodes, kSunNodes)
 layout(set = 0, binding = kSunIrradiance, scalar) writeonly buffer Irradiance { vec4 irradiance[]; };
 layout(set = 0, binding = kSunTally, scalar) buffer Tally { SunTallyRecord tally; };
 layout(push_constant, scalar) uniform Params { SunEnergyParams params; };
 
+uint countLanes(bool which) { return subgroupBallotBitCount(subgroupBallot(which)); }
+
 void main()
 {
     const uint i = globalIndex(kSunGroup);
-    if (i >= params.patchCount) return;
-    const vec2 own = density[i].xy;
-    if (!(own.y > 0.0) || params.dni == vec4(0.0)) {
-        irradiance[i] = vec4(0.0);
-        return;
-    }
+    const bool exists = i < params.patchCount;
+    const vec2 own = exists ? readVec4(density, i).xy : vec2(0.0);
+    const bool lit = own.y > 0.0 && params.dni != vec4(0.0);
     vec2 judged = own;
-    float area = patches[i].area;
     uint node = i;
-    bool enough = own.y >= params.minCosine && own.y * area >= params.minSamples * params.texelArea;
+    bool enough = !lit || own.y >= params.minCosine && own.y * readVec4(planes, i).w >= params.minSamples * params.texelArea;
     const bool flagged = !enough;
-    while (!enough && nodes[node].parent != kNone) {
-        node = nodes[node].parent;
-        judged = density[node].xy;
-        area = nodes[node].area;
-        enough = judged.y * area >= params.minSamples * params.texelArea;
+    while (!enough) {
+        node = readUvec2(nodes, node).x;
+        if (node == kNone) break;
+        judged = readVec4(density, node).xy;
+        enough = judged.y * uintBitsToFloat(readUvec2(nodes, node).y) >= params.minSamples * params.texelArea;
     }
     // On edge the raster sees nothing of a patch but strays along its border.
-    const float ratio = enough || own.y >= params.discRadius ? judged.x / judged.y : 0.0;
-    irradiance[i] = params.dni * (own.y * min(ratio, 1.0));
-    atomicAdd(tally.lit, 1u);
-    if (flagged) atomicAdd(tally.flagged, 1u);
-    if (!flagged && ratio > 1.0) atomicAdd(tally.excess, 1u);
+    const float ratio = lit && (enough || own.y >= params.discRadius) ? judged.x / judged.y : 0.0;
+    if (exists) irradiance[i] = params.dni * (own.y * min(ratio, 1.0));
+
+    const uint litLanes = countLanes(lit), flaggedLanes = countLanes(flagged);
+    const uint excessLanes = countLanes(lit && !flagged && ratio > 1.0);
+    if (!subgroupElect()) return;
+    if (litLanes > 0u) atomicAdd(tally.lit, litLanes);
+    if (flaggedLanes > 0u) atomicAdd(tally.flagged, flaggedLanes);
+    if (excessLanes > 0u) atomicAdd(tally.excess, excessLanes);
 }

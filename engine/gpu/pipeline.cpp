@@ -26,6 +26,8 @@ VkShaderStageFlagBits stageBit(ShaderStage stage)
 VkDescriptorType descriptorType(BindingKind kind)
 {
     switch (kind) {
+    case BindingKind::StorageTexelBuffer:
+        return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
     case BindingKind::UniformTexelBuffer:
         return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     case BindingKind::SampledImage:

@@ -133,6 +133,7 @@ VkDescriptorSet Recorder::allocateSet(VkDescriptorSetLayout layout)
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 8},
         {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kSetsPerPool * 4},
+        {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSetsPerPool * 8},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kSetsPerPool * 4},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSetsPerPool * 4},
     };
@@ -184,11 +185,14 @@ void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> bounds)
             write.pBufferInfo = &buffers[i];
             break;
         }
+        case BindingKind::StorageTexelBuffer:
         case BindingKind::UniformTexelBuffer:
             HELIO_CHECK(found->format != VK_FORMAT_UNDEFINED, "binding ", wanted.binding,
                         " is a texel buffer: bind it with its format");
             views[i] = found->buffer->texelView(found->format);
-            write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+            write.descriptorType = wanted.kind == BindingKind::StorageTexelBuffer
+                                       ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+                                       : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             write.pTexelBufferView = &views[i];
             break;
         case BindingKind::SampledImage:

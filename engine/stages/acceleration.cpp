@@ -11,23 +11,25 @@ namespace helio {
 namespace {
 
 constexpr double kWorthIt = 0.5;    // rate of plain sweeps: below it they need few
+constexpr double kGain = 1.5;       // how many plain sweeps one of the semi-iteration must be worth
 constexpr double kLargest = 0.9999; // radius; at 1 the semi-iteration has no rate
 constexpr float kSmallest = 1e-30f; // of a ratio's denominator: near the end of the float range ratios are noise
 
 } // namespace
 
-SpectralBounds spectralBounds(std::span<const gpu::PatchRecord> patches, std::span<const glm::vec4> before,
-                              std::span<const glm::vec4> after)
+SpectralBounds spectralBounds(std::span<const glm::vec4> reflectance, std::span<const glm::vec4> planes,
+                              std::span<const glm::vec4> before, std::span<const glm::vec4> after)
 {
-    HELIO_CHECK(before.size() == patches.size() && after.size() == patches.size(), patches.size(), " patches, ",
+    const size_t count = reflectance.size();
+    HELIO_CHECK(planes.size() == count && before.size() == count && after.size() == count, count, " patches, ",
                 before.size(), " and ", after.size(), " radiosities");
     SpectralBounds bounds;
     glm::dvec4 product(0.0), square(0.0);
-    for (size_t i = 0; i < patches.size(); ++i)
+    for (size_t i = 0; i < count; ++i)
         for (int c = 0; c < 4; ++c) {
-            if (!(before[i][c] > kSmallest) || !(patches[i].rho[c] > 0.0f)) continue;
+            if (!(before[i][c] > kSmallest) || !(reflectance[i][c] > 0.0f)) continue;
             const double x = double(before[i][c]), y = double(after[i][c]),
-                         weight = double(patches[i].area) / double(patches[i].rho[c]);
+                         weight = double(planes[i].w) / double(reflectance[i][c]);
             bounds.upper[c] = std::max(bounds.upper[c], y / x);
             product[c] += weight * x * y;
             square[c] += weight * x * x;
@@ -57,7 +59,8 @@ glm::dvec4 chebyshevRadius(const SpectralBounds& spectrum, const glm::dvec4& con
         // The contraction number bounds the eigenvalues too.
         const double m = std::min(spectrum.upper[c], contraction[c]);
         if (!(spectrum.lower[c] >= kWorthIt) || !(m < kLargest)) continue;
-        if (m / (1.0 + std::sqrt(1.0 - m * m)) < spectrum.lower[c]) radius[c] = m;
+        const double rate = m / (1.0 + std::sqrt(1.0 - m * m));
+        if (std::log(rate) < kGain * std::log(spectrum.lower[c])) radius[c] = m;
     }
     return radius;
 }

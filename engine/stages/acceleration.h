@@ -5,7 +5,6 @@
 #include <string>
 
 #include "engine/stream/contraction.h"
-#include "shaders/shared/records.h"
 
 namespace helio {
 
@@ -20,16 +19,17 @@ struct SpectralBounds
 /// light. lower: the Rayleigh quotient in the inner product sum A X Y / rho, in which reciprocity (A_i F_ij = A_j F_ji)
 /// makes the sweep symmetric. upper: the largest ratio of a patch (Collatz and Wielandt; holds where no factor is
 /// negative).
-SpectralBounds spectralBounds(std::span<const gpu::PatchRecord> patches, std::span<const glm::vec4> before,
-                              std::span<const glm::vec4> after);
+/// reflectance, planes: a patch each, see TileTables.
+SpectralBounds spectralBounds(std::span<const glm::vec4> reflectance, std::span<const glm::vec4> planes,
+                              std::span<const glm::vec4> before, std::span<const glm::vec4> after);
 
 /// What to tell a user of links that do not contract in the maximum norm; empty if they do. Error bounds need that; the
 /// sweeps converge if the eigenvalues are below 1.
 std::string contractionNote(const Contraction& contraction, const SpectralBounds& spectrum);
 
 /// Radius m of the interval [-m, m] of eigenvalues that Chebyshev's semi-iteration is laid out for, a channel; 0 =
-/// plain sweeps. It is taken where it pays: where m / (1 + sqrt(1 - m^2)), its rate, is below the rate of plain sweeps
-/// and that is at least a half. contraction: Contraction::number.
+/// plain sweeps. It is taken where it pays: where the rate of plain sweeps is at least a half, and its own, m / (1 +
+/// sqrt(1 - m^2)), does in two sweeps what they do in three. contraction: Contraction::number.
 glm::dvec4 chebyshevRadius(const SpectralBounds& spectrum, const glm::dvec4& contraction);
 
 /// The weight of sweep `sweep` (0, 1, 2, ...) after that of the sweep before: 1, 1 / (1 - m^2 / 2), 1 / (1 - m^2 w /

@@ -4,48 +4,46 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/graph/pass_context.h"
 #include "shaders/embedded.h"
 
 namespace helio {
 
-LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light,
-                        bool emission, bool warm)
-{
-    light = graph.addPass("first light", [&](PassBuilder& pass) {
-        const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
-        const auto sun = pass.read(direct.sun, Use::ComputeRead);
-        const auto sky = pass.read(direct.sky, Use::ComputeRead);
-        const auto indirect = pass.read(light.irradiance, Use::ComputeRead);
-        const LightRefs out{pass.write(light.b0, Use::ComputeWrite), pass.write(light.radiosity, Use::ComputeWrite),
-                            light.irradiance, light.slopes};
-        const gpu::FirstLightParams params{tile.patchCount, emission ? 1.0f : 0.0f, warm ? 1.0f : 0.0f, 0};
-        pass.record([=](PassContext& ctx) {
-            ctx.dispatch(shaders::kFirstLightComp,
-                         {storage(gpu::kFirstPatches, patches), storage(gpu::kFirstSun, sun),
-                          storage(gpu::kFirstSky, sky), storage(gpu::kFirstIndirect, indirect),
-                          storage(gpu::kFirstB0, out.b0), storage(gpu::kFirstRadiosity, out.radiosity)},
-                         params, groupsFor(params.patchCount, gpu::kSolveGroup));
-        });
-        return out;
-    });
-    return addPullLight(graph, tile, light);
-}
+namespace {
 
-Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values, const std::string& name)
+constexpr VkFormat kVectors = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kWords4 = VK_FORMAT_R32G32B32A32_UINT;
+constexpr VkFormat kWords2 = VK_FORMAT_R32G32_UINT;
+constexpr VkFormat kWords = VK_FORMAT_R32_UINT;
+
+const ReadVariants kPull{shaders::kPullComp, shaders::kPullImagesComp, shaders::kPullStorageComp};
+const ReadVariants kGather{shaders::kGatherComp, shaders::kGatherImagesComp, shaders::kGatherStorageComp};
+const ReadVariants kGatherUpdate{shaders::kGatherUpdateComp, shaders::kGatherUpdateImagesComp,
+                                 shaders::kGatherUpdateStorageComp};
+const ReadVariants kFirstLight{shaders::kFirstLightComp, shaders::kFirstLightImagesComp,
+                               shaders::kFirstLightStorageComp};
+const ReadVariants kResidualParts{shaders::kResidualPartsComp, shaders::kResidualPartsImagesComp,
+                                  shaders::kResidualPartsStorageComp};
+const ReadVariants kResidual{shaders::kResidualComp, shaders::kResidualImagesComp, shaders::kResidualStorageComp};
+
+Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values, const std::string& name, u32 stride)
 {
     return graph.addPass(name, [&](PassBuilder& pass) {
         const auto rows = pass.read(pass.import(tile.childRows), Use::ComputeRead);
         const auto children = pass.read(pass.import(tile.children), Use::ComputeRead);
+        const auto turns = pass.read(pass.import(tile.turns), Use::ComputeRead);
         const auto out = pass.write(values, Use::ComputeReadWrite);
-        pass.record([=, levels = tile.levels, patchCount = tile.patchCount](PassContext& ctx) {
+        const ShaderCode& shader = kPull[tile.reads];
+        pass.record([=, &shader, levels = tile.levels, patchCount = tile.patchCount](PassContext& ctx) {
             for (const TreeLevel& level : levels) {
-                ctx.dispatch(shaders::kPullComp,
-                             {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
-                              storage(gpu::kPullValues, out)},
-                             gpu::LevelParams{level.first, level.count, patchCount},
-                             groupsFor(level.count, gpu::kSolveGroup));
+                ctx.dispatch(shader,
+                             {texels(gpu::kPullRows, rows, kWords), texels(gpu::kPullChildren, children, kWords4),
+                              texels(gpu::kPullTurns, turns, kVectors), texels(gpu::kPullValues, out, kWords4),
+                              storage(gpu::kPullOut, out)},
+                             gpu::PullParams{level.first, level.count, patchCount, stride},
+                             groupsFor(level.count, gpu::kSolveGroup), {{0, stride > 1}});
                 ctx.barrier();
             }
         });
@@ -53,134 +51,179 @@ Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> value
     });
 }
 
-LightRefs addPullLight(FrameGraph& graph, const TileTables& tile, LightRefs light)
+/// What the rows of patches need to become new radiosities.
+struct Update
 {
-    if (!tile.linear) {
-        light.radiosity = addPull(graph, tile, light.radiosity);
-        return light;
-    }
-    return graph.addPass("pull", [&](PassBuilder& pass) {
-        const auto rows = pass.read(pass.import(tile.childRows), Use::ComputeRead);
-        const auto children = pass.read(pass.import(tile.children), Use::ComputeRead);
-        const auto childSlopes = pass.read(pass.import(tile.childSlopes), Use::ComputeRead);
-        LightRefs out = light;
-        out.radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
-        out.slopes = pass.write(light.slopes, Use::ComputeReadWrite);
-        pass.record([=, levels = tile.levels, patchCount = tile.patchCount](PassContext& ctx) {
-            for (const TreeLevel& level : levels) {
-                ctx.dispatch(shaders::kPullLinearComp,
-                             {storage(gpu::kPullRows, rows), storage(gpu::kPullChildren, children),
-                              storage(gpu::kPullChildSlopes, childSlopes), storage(gpu::kPullValues, out.radiosity),
-                              storage(gpu::kPullSlopes, out.slopes)},
-                             gpu::LevelParams{level.first, level.count, patchCount},
-                             groupsFor(level.count, gpu::kSolveGroup));
-                ctx.barrier();
+    const Buffer& reflectance;
+    Ref<Buffer> b0, senders;
+    glm::vec4 weight{1.0f};
+};
+struct GatherRefs
+{
+    Ref<Buffer> irradiance, senders;
+};
+
+GatherRefs addRows(FrameGraph& graph, const LinkBuffers& links, Ref<Buffer> senders, Ref<Buffer> irradiance,
+                   const GatherOptions& options, const std::optional<Update>& update)
+{
+    return graph.addPass(options.name, [&](PassBuilder& pass) {
+        struct Page
+        {
+            Ref<Buffer> records, moments;
+            LinkPage page;
+        };
+        std::vector<Page> pages;
+        for (const LinkBuffers::Page& page : links.pages)
+            pages.push_back({pass.read(pass.import(page.records), Use::ComputeRead),
+                             pass.read(pass.import(page.moments), Use::ComputeRead), page.page});
+        const auto rows = pass.read(pass.import(links.rows), Use::ComputeRead);
+        const auto strips = pass.read(pass.import(links.strips), Use::ComputeRead);
+        const auto from = pass.read(senders, Use::ComputeRead);
+        const GatherRefs out{pass.write(irradiance, Use::ComputeReadWrite),
+                             update ? pass.write(update->senders, Use::ComputeReadWrite) : Ref<Buffer>{}};
+        Ref<Buffer> reflectance, b0;
+        if (update) {
+            reflectance = pass.read(pass.import(update->reflectance), Use::ComputeRead);
+            b0 = pass.read(update->b0, Use::ComputeRead);
+        }
+        const ShaderCode& plain = kGather[options.reads];
+        const ShaderCode& updates = kGatherUpdate[options.reads];
+        const u32 lastLevel = links.dispatches.empty() ? 0 : links.dispatches.back().level;
+        pass.record([=, &plain, &updates, dispatches = links.dispatches, stride = links.stride,
+                     factorBits = links.factorBits, patchCount = links.senderPatches, scale = options.scale,
+                     weight = update ? update->weight : glm::vec4(1.0f),
+                     updating = update.has_value()](PassContext& ctx) {
+            for (const LinkDispatch& dispatch : dispatches) {
+                if (&dispatch != dispatches.data()) ctx.barrier();
+                const Page& page = pages[dispatch.page];
+                const gpu::GatherParams params{dispatch.rowFirst,
+                                               dispatch.rowCount,
+                                               page.page.recordFirst,
+                                               page.page.momentFirst,
+                                               patchCount,
+                                               stride,
+                                               scale,
+                                               0,
+                                               weight};
+                std::vector<Binding> bindings{texels(gpu::kGatherRows, rows, kWords2),
+                                              texels(gpu::kGatherStrips, strips, kWords4),
+                                              texels(gpu::kGatherLinks, page.records, kWords4),
+                                              texels(gpu::kGatherMoments, page.moments, kWords2),
+                                              texels(gpu::kGatherSenders, from, kWords4),
+                                              texels(gpu::kGatherParents, out.irradiance, kVectors),
+                                              storage(gpu::kGatherIrradiance, out.irradiance)};
+                std::vector<SpecConstant> constants{{1, factorBits}};
+                const bool last = updating && dispatch.level == lastLevel; // the patches
+                if (last) {
+                    bindings.push_back(texels(gpu::kGatherReflectance, reflectance, kVectors));
+                    bindings.push_back(texels(gpu::kGatherB0, b0, kVectors));
+                    bindings.push_back(texels(gpu::kGatherBefore, out.senders, kVectors));
+                    bindings.push_back(storage(gpu::kGatherOut, out.senders));
+                    if (weight != glm::vec4(1.0f)) constants.push_back({0, 1u});
+                }
+                ctx.dispatchBytes(last ? updates : plain, bindings, std::as_bytes(std::span(&params, 1)),
+                                  groupsFor(dispatch.rowCount, gpu::kSolveGroup), constants);
             }
         });
         return out;
     });
 }
 
-Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values)
+} // namespace
+
+LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectLight& direct, LightRefs light,
+                        bool emission, bool warm)
 {
-    return graph.addPass("push", [&](PassBuilder& pass) {
-        const auto parents = pass.read(pass.import(tile.parents), Use::ComputeRead);
-        const auto out = pass.write(values, Use::ComputeReadWrite);
-        // Downwards; the patches are one level more, and the top level is in it for roots only: it does nothing there.
-        std::vector<TreeLevel> levels(tile.levels.rbegin(), tile.levels.rend());
-        levels.push_back({0, tile.patchCount});
-        pass.record([=, patchCount = tile.patchCount](PassContext& ctx) {
-            for (const TreeLevel& level : levels) {
-                ctx.dispatch(shaders::kPushComp, {storage(gpu::kPushParents, parents), storage(gpu::kPushValues, out)},
-                             gpu::LevelParams{level.first, level.count, patchCount},
-                             groupsFor(level.count, gpu::kSolveGroup));
-                ctx.barrier();
-            }
+    light = graph.addPass("first light", [&](PassBuilder& pass) {
+        const auto reflectance = pass.read(pass.import(tile.reflectance), Use::ComputeRead);
+        const auto emitted = pass.read(pass.import(tile.emission), Use::ComputeRead);
+        const auto sun = pass.read(direct.sun, Use::ComputeRead);
+        const auto sky = pass.read(direct.sky, Use::ComputeRead);
+        const auto indirect = pass.read(light.irradiance, Use::ComputeRead);
+        const LightRefs out{pass.write(light.b0, Use::ComputeWrite), pass.write(light.senders, Use::ComputeWrite),
+                            light.irradiance};
+        const gpu::FirstLightParams params{tile.patchCount, emission ? 1.0f : 0.0f, warm ? 1.0f : 0.0f, 0};
+        const ShaderCode& shader = kFirstLight[tile.reads];
+        pass.record([=, &shader, emits = tile.emits](PassContext& ctx) {
+            ctx.dispatch(shader,
+                         {texels(gpu::kFirstReflectance, reflectance, kVectors), texels(gpu::kFirstSun, sun, kVectors),
+                          texels(gpu::kFirstSky, sky, kVectors), texels(gpu::kFirstIndirect, indirect, kVectors),
+                          texels(gpu::kFirstEmission, emitted, kVectors), storage(gpu::kFirstB0, out.b0),
+                          storage(gpu::kFirstSenders, out.senders)},
+                         params, groupsFor(params.patchCount, gpu::kSolveGroup), {{0, emits}});
         });
         return out;
     });
+    light.senders = addPullSenders(graph, tile, light.senders);
+    return light;
+}
+
+Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values, const std::string& name)
+{
+    return addPull(graph, tile, values, name, 1);
+}
+
+Ref<Buffer> addPullSenders(FrameGraph& graph, const TileTables& tile, Ref<Buffer> senders)
+{
+    return addPull(graph, tile, senders, "pull", tile.links.stride);
+}
+
+Ref<Buffer> addGather(FrameGraph& graph, const LinkBuffers& links, Ref<Buffer> senders, Ref<Buffer> irradiance,
+                      const GatherOptions& options)
+{
+    return addRows(graph, links, senders, irradiance, options, {}).irradiance;
 }
 
 LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light)
 {
-    return graph.addPass("gather", [&](PassBuilder& pass) {
-        struct Page
-        {
-            Ref<Buffer> records;
-            gpu::GatherParams params;
-        };
-        std::vector<Page> pages;
-        for (const LinkPageBuffer& links : tile.links)
-            pages.push_back({pass.read(pass.import(links.records), Use::ComputeRead),
-                             {links.page.rowFirst, links.page.rowCount, links.page.recordFirst, tile.patchCount}});
-        const auto order = pass.read(pass.import(tile.linkOrder), Use::ComputeRead);
-        const auto rows = pass.read(pass.import(tile.linkRows), Use::ComputeRead);
-        const auto from = pass.read(light.radiosity, Use::ComputeRead);
-        LightRefs out = light;
-        if (tile.linear) out.slopes = pass.read(light.slopes, Use::ComputeRead);
-        out.irradiance = pass.write(light.irradiance, Use::ComputeWrite);
-        const ShaderCode& shader =
-            tile.linear ? (tile.texelLinks ? shaders::kGatherTexelLinearComp : shaders::kGatherLinearComp)
-                        : (tile.texelLinks ? shaders::kGatherTexelComp : shaders::kGatherComp);
-        pass.record([=, &shader, linear = tile.linear](PassContext& ctx) {
-            for (const Page& page : pages) {
-                std::vector<Binding> bindings{storage(gpu::kGatherOrder, order), storage(gpu::kGatherRows, rows),
-                                              texels(gpu::kGatherLinks, page.records, VK_FORMAT_R32G32B32A32_UINT),
-                                              texels(gpu::kGatherRadiosity, from, VK_FORMAT_R32G32B32A32_SFLOAT),
-                                              storage(gpu::kGatherIrradiance, out.irradiance)};
-                if (linear) bindings.push_back(texels(gpu::kGatherSlopes, out.slopes, VK_FORMAT_R32G32B32A32_SFLOAT));
-                ctx.dispatchBytes(shader, bindings, std::as_bytes(std::span(&page.params, 1)),
-                                  groupsFor(page.params.rowCount, gpu::kSolveGroup), {});
-            }
+    light.irradiance = addGather(graph, tile.links, light.senders, light.irradiance, {.reads = tile.reads});
+    return light;
+}
+
+u32 residualParts(const TileTables& tile)
+{
+    constexpr u32 kPatches = gpu::kSolveGroup * gpu::kResidualRun;
+    return (tile.patchCount + kPatches - 1) / kPatches * gpu::kSolveGroup;
+}
+
+SweepResult addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, SweepTargets to, glm::vec4 weight)
+{
+    const Ref<Buffer> before = light.senders;
+    const GatherRefs rows = addRows(graph, tile.links, light.senders, light.irradiance, {.reads = tile.reads},
+                                    Update{tile.reflectance, light.b0, to.senders, weight});
+    light.irradiance = rows.irradiance;
+    light.senders = addPullSenders(graph, tile, rows.senders);
+    const u32 partCount = residualParts(tile);
+    to.parts = graph.addPass("residual parts", [&](PassBuilder& pass) {
+        const auto reflectance = pass.read(pass.import(tile.reflectance), Use::ComputeRead);
+        const auto planes = pass.read(pass.import(tile.planes), Use::ComputeRead);
+        const auto b0 = pass.read(light.b0, Use::ComputeRead);
+        const auto irradiance = pass.read(light.irradiance, Use::ComputeRead);
+        const auto from = pass.read(before, Use::ComputeRead);
+        const auto out = pass.write(to.parts, Use::ComputeWrite);
+        const ShaderCode& shader = kResidualParts[tile.reads];
+        pass.record([=, &shader, params = gpu::CountParams{tile.patchCount}](PassContext& ctx) {
+            ctx.dispatch(shader,
+                         {texels(gpu::kPartsReflectance, reflectance, kVectors), texels(gpu::kPartsB0, b0, kVectors),
+                          texels(gpu::kPartsIrradiance, irradiance, kVectors),
+                          texels(gpu::kPartsSenders, from, kVectors), texels(gpu::kPartsPlanes, planes, kVectors),
+                          storage(gpu::kPartsOut, out)},
+                         params, groupsFor(partCount, gpu::kSolveGroup));
         });
         return out;
     });
-}
-
-u32 updateGroups(const TileTables& tile)
-{
-    constexpr u32 kPatches = gpu::kSolveGroup * gpu::kUpdateRun;
-    return (tile.patchCount + kPatches - 1) / kPatches;
-}
-
-UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
-                    Ref<Buffer> residual, const std::optional<ChebyshevRefs>& chebyshev)
-{
-    light = addGather(graph, tile, light);
-    light.irradiance = addPush(graph, tile, light.irradiance);
-    const u32 partialCount = updateGroups(tile);
-    const auto updated = graph.addPass("update", [&](PassBuilder& pass) {
-        const auto patches = pass.read(pass.import(tile.patches), Use::ComputeRead);
-        const auto b0 = pass.read(light.b0, Use::ComputeRead);
-        const auto irradiance = pass.read(light.irradiance, Use::ComputeRead);
-        const auto radiosity = pass.write(light.radiosity, Use::ComputeReadWrite);
-        const auto sums = pass.write(partials, Use::ComputeWrite);
-        const Ref<Buffer> before = chebyshev ? pass.write(chebyshev->before, Use::ComputeReadWrite) : Ref<Buffer>{};
-        const gpu::UpdateParams params{chebyshev ? chebyshev->weight : glm::vec4(1.0f), tile.patchCount};
-        pass.record([=, accelerated = chebyshev.has_value()](PassContext& ctx) {
-            std::vector<Binding> bindings{storage(gpu::kUpdatePatches, patches), storage(gpu::kUpdateB0, b0),
-                                          storage(gpu::kUpdateIrradiance, irradiance),
-                                          storage(gpu::kUpdateRadiosity, radiosity),
-                                          storage(gpu::kUpdatePartials, sums)};
-            if (accelerated) bindings.push_back(storage(gpu::kUpdateBefore, before));
-            ctx.dispatchBytes(accelerated ? shaders::kUpdateChebyshevComp : shaders::kUpdateComp, bindings,
-                              std::as_bytes(std::span(&params, 1)),
-                              groupsFor(u64(partialCount) * gpu::kSolveGroup, gpu::kSolveGroup), {});
+    to.residual = graph.addPass("residual", [&](PassBuilder& pass) {
+        const auto from = pass.read(to.parts, Use::ComputeRead);
+        const auto out = pass.write(to.residual, Use::ComputeWrite);
+        const ShaderCode& shader = kResidual[tile.reads];
+        pass.record([=, &shader, params = gpu::CountParams{partCount}](PassContext& ctx) {
+            ctx.dispatch(shader, {texels(gpu::kResidualParts, from, kVectors), storage(gpu::kResidualResult, out)},
+                         params, Groups{});
         });
-        return std::pair(radiosity, sums);
+        return out;
     });
-    light.radiosity = updated.first;
-    light = addPullLight(graph, tile, light);
-    const auto result = graph.addPass("residual", [&](PassBuilder& pass) {
-        const auto from = pass.read(updated.second, Use::ComputeRead);
-        const auto to = pass.write(residual, Use::ComputeWrite);
-        pass.record([=, params = gpu::ResidualParams{partialCount}](PassContext& ctx) {
-            ctx.dispatch(shaders::kResidualComp,
-                         {storage(gpu::kResidualPartials, from), storage(gpu::kResidualResult, to)}, params, Groups{});
-        });
-        return to;
-    });
-    return {light, result};
+    to.senders = before;
+    return {light, to};
 }
 
 namespace {

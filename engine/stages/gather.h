@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <glm/vec4.hpp>
-#include <optional>
 #include <string>
 
 #include "engine/graph/frame_graph.h"
@@ -19,9 +18,8 @@ struct DirectLight
 struct LightRefs
 {
     Ref<Buffer> b0;         ///< a patch: emission + rho (E_sun + E_sky)
-    Ref<Buffer> radiosity;  ///< a node: B
-    Ref<Buffer> irradiance; ///< a node: what arrives over links; at the patches E_indirect
-    Ref<Buffer> slopes;     ///< linear senders only: two an inner node, of B in the node's slope coordinates
+    Ref<Buffer> senders;    ///< B of patches and inner nodes, with slopes: see shaders/shared/solve.h
+    Ref<Buffer> irradiance; ///< a node: what arrives over links, its ancestors' included; at the patches E_indirect
 };
 
 /// Before the sweeps: B0, and B = B0 + rho E_indirect with the E_indirect of the last solve (warm) or none (cold),
@@ -32,31 +30,41 @@ LightRefs addFirstLight(FrameGraph& graph, const TileTables& tile, const DirectL
 /// X_parent = sum A_child X_child / A_parent, level by level, in place (vec4 a node).
 [[nodiscard]] Ref<Buffer> addPull(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values,
                                   const std::string& name = "pull");
-/// addPull of the radiosity, with linear senders of its slopes too.
-[[nodiscard]] LightRefs addPullLight(FrameGraph& graph, const TileTables& tile, LightRefs light);
-/// E_child += E_parent, level by level, in place (vec4 a node).
-[[nodiscard]] Ref<Buffer> addPush(FrameGraph& graph, const TileTables& tile, Ref<Buffer> values);
-/// E_i = sum F_ij B_j over the links of row i, at every node; with linear senders sum F_ij B_j + M_ij . slope_j.
+/// addPull of an array of senders, with linear ones of the slopes too.
+[[nodiscard]] Ref<Buffer> addPullSenders(FrameGraph& graph, const TileTables& tile, Ref<Buffer> senders);
+/// E_i = E_parent + sum F_ij B_j over the links of row i, at every node; with linear senders sum F_ij B_j + M_ij .
+/// slope_j.
 [[nodiscard]] LightRefs addGather(FrameGraph& graph, const TileTables& tile, LightRefs light);
-
-struct UpdateRefs
+/// The same over any links, alone.
+struct GatherOptions
 {
-    LightRefs light;
+    std::string name = "gather";
+    float scale = 1.0f; ///< of the result
+    Reads reads = Reads::Texels;
+};
+[[nodiscard]] Ref<Buffer> addGather(FrameGraph& graph, const LinkBuffers& links, Ref<Buffer> senders,
+                                    Ref<Buffer> irradiance, const GatherOptions& options);
+
+/// What a sweep writes beside the light.
+struct SweepTargets
+{
+    Ref<Buffer> senders;  ///< a second array of senders, which takes the new B
+    Ref<Buffer> parts;    ///< scratch, residualParts(tile) ResidualRecords
     Ref<Buffer> residual; ///< ResidualRecord
 };
-/// What Chebyshev's semi-iteration needs beside a sweep.
-struct ChebyshevRefs
+struct SweepResult
 {
-    Ref<Buffer> before;     ///< vec4 a patch: the radiosity before the sweep before; kept up by the sweeps
-    glm::vec4 weight{1.0f}; ///< see chebyshevWeight; a channel of weight 1 makes a plain sweep
+    LightRefs light;    ///< with the new senders
+    SweepTargets spent; ///< the old senders, to be written by the next sweep
 };
-/// One Jacobi sweep: gather, push, B = B0 + rho E at the patches, pull; and the sums of the residual of the B before.
-/// partials: scratch, updateGroups(tile) ResidualRecords.
-UpdateRefs addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, Ref<Buffer> partials,
-                    Ref<Buffer> residual, const std::optional<ChebyshevRefs>& chebyshev = {});
+/// One Jacobi sweep: the gather downwards, B = B0 + rho E at the patches, pull; and the sums of the residual of the B
+/// before. weight: of Chebyshev's semi-iteration (see chebyshevWeight), for which `to` holds the B before the last one;
+/// a channel of weight 1 makes a plain sweep.
+SweepResult addSweep(FrameGraph& graph, const TileTables& tile, LightRefs light, SweepTargets to,
+                     glm::vec4 weight = glm::vec4(1.0f));
 
-/// Work groups of the update, one partial sum each.
-u32 updateGroups(const TileTables& tile);
+/// Lanes that add up the residual, one part each.
+u32 residualParts(const TileTables& tile);
 
 /// ||B_new - B|| / ||B_new - B0||, area weighted, of the channel where it is largest; 0 when nothing is reflected.
 double residualOf(const gpu::ResidualRecord& sums);

@@ -31,7 +31,7 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
 {
     return graph.addPass("forward", [&](PassBuilder& pass) {
         const CityMesh mesh(pass, tile, list);
-        const auto patches = pass.read(pass.import(tile.patches), Use::FragmentRead);
+        const auto emission = pass.read(pass.import(tile.emission), Use::FragmentRead);
         const auto view = pass.read(in.view, Use::FragmentRead);
         const auto shadow = pass.read(in.shadow, Use::FragmentSample);
         const auto sun = pass.read(in.sun, Use::FragmentRead);
@@ -59,7 +59,7 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
                     drawing.pipeline(std::move(city));
                     drawing.bind({storage(gpu::kForwardView, view),
                                   sampled(gpu::kForwardShadow, shadow, Sampler::Nearest, {0, 0, true}),
-                                  storage(gpu::kForwardPatches, patches), storage(gpu::kForwardSun, sun),
+                                  storage(gpu::kForwardEmission, emission), storage(gpu::kForwardSun, sun),
                                   storage(gpu::kForwardSky, sky), storage(gpu::kForwardIndirect, indirect),
                                   storage(gpu::kForwardRadiosity, radiosity), storage(gpu::kForwardCorners, corners),
                                   storage(gpu::kForwardSmooth, smooth)});

@@ -22,39 +22,64 @@ struct LinkRows
     bool linear() const { return !moments.empty(); }
 };
 
-/// Whole rows whose records lie in one device buffer.
+/// Rows that may be gathered together, once those before them are done.
+struct RowLevel
+{
+    u32 first = 0, count = 0;
+    bool operator==(const RowLevel&) const = default;
+};
+
+/// Link records that lie in one device buffer, and the moment records that go with them in another.
 struct LinkPage
 {
-    u32 rowFirst = 0, rowCount = 0;       ///< into PackedLinks::order
-    u32 recordFirst = 0, recordCount = 0; ///< into PackedLinks::records
+    u32 recordFirst = 0, recordCount = 0, momentFirst = 0, momentCount = 0;
     bool operator==(const LinkPage&) const = default;
 };
 
-/// Among so many neighbouring rows the longer ones come first, so that threads that run side by side have rows of about
-/// the same length, and still write close together.
-inline constexpr u32 kRowBlock = 512;
+/// One dispatch of the gather: whole strips of one level, with their links in one page.
+struct LinkDispatch
+{
+    u32 page = 0, level = 0;
+    u32 rowFirst = 0, rowCount = 0; ///< into PackedLinks::rows
+    bool operator==(const LinkDispatch&) const = default;
+};
 
-/// Links as the gather reads them, in 16-byte records. Constant senders: two links a record, rows padded to even length
-/// with a link of factor 0. Linear senders: the links of a row to patches in the same way, then a LinearLinkRecord for
-/// each of its links to inner nodes (as the bits of a LinkPairRecord), both in their order.
+/// Rows are sorted by length among so many neighbours: enough for strips of equal rows, few enough that what a strip
+/// reads and writes stays close together.
+inline constexpr u32 kRowBlock = 4096;
+
+/// Links as the gather reads them (shaders/shared/solve.h): strips of eight rows, four bytes a link to a patch or with
+/// constant senders, six a link to an inner node with linear ones, 16 for what the short form cannot hold. Rounding in
+/// the short form keeps the sum of a row's factors: what one link gains the next one loses, so that only differences
+/// between senders count.
 struct PackedLinks
 {
-    std::vector<u32> order; ///< receiver of each row
-    std::vector<u32>
-        rows; ///< rowCount + 1 offsets into records; linear: begin and first linear record of each row, end
-    std::vector<gpu::LinkPairRecord> records;
-    std::vector<LinkPage> pages; ///< cover all rows in order, empty ones too
+    std::vector<gpu::RowRecord> rows; ///< receivers alone: parents are kNone
+    std::vector<gpu::StripRecord> strips;
+    std::vector<gpu::LinkQuadRecord> records; ///< LinkSingleRecords among them, as their bits
+    std::vector<gpu::MomentQuadRecord> moments;
+    std::vector<LinkPage> pages;
+    std::vector<LinkDispatch> dispatches; ///< in the order of the levels; every row once
+    u64 singles = 0;                      ///< links in full precision
+    u32 factorBits = gpu::kMinFactorBits; ///< of a short link: what the columns leave
+
+    /// Of links, moments and strips.
+    u64 bytes() const;
 };
 
-/// Records of one row: of the pairs, and of all.
-struct RowRecords
+struct PackOptions
 {
-    u32 pairs = 0, all = 0;
+    bool exact = false;     ///< every link in full precision
+    u64 maxRecords = ~0ull; ///< that the device reads from one buffer, 16 bytes each
 };
-RowRecords recordsOfRow(const LinkRows& links, u32 row);
 
-/// Repacks the pack's links for a device that reads at most `maxRecordsPerPage` records from one buffer. Error: a row
+/// Repacks the pack's links. levels: cover all rows, each once, in the order in which they are gathered. Error: a strip
 /// that no page can hold, or more than 2^32 - 1 records.
-Result<PackedLinks> packLinks(const LinkRows& links, u64 maxRecordsPerPage);
+Result<PackedLinks> packLinks(const LinkRows& links, std::span<const RowLevel> levels, const PackOptions& options);
+
+/// The short form of a factor in so many bits, see LinkQuadRecord; false if it is below 0, 2 or more, or not a number.
+/// Factors below 2^-30 round to 0 or to it.
+bool encodeFactor(double factor, u32 factorBits, u32& code);
+double decodeFactor(u32 code, u32 factorBits);
 
 } // namespace helio

@@ -2,6 +2,8 @@
 #include "engine/stream/tile_tables.h"
 
 #include <algorithm>
+#include <bit>
+#include <glm/vec2.hpp>
 
 #include "engine/gpu/transfer.h"
 
@@ -9,27 +11,79 @@ namespace helio {
 
 namespace {
 
-LinkRows linksOf(const TileView& tile)
+/// Sky links as rows of links whose senders are the sky patches: inner nodes with slopes where they are linear (see
+/// kSkySlopeScale), else patches.
+struct SkyRows
 {
-    return {tile.linkRows, tile.linkColumns, tile.linkFactors, tile.linkMoments, u32(tile.patches.size())};
+    explicit SkyRows(const TileView& tile) : rows(tile.skyRows), columns(tile.skyColumns), factors(tile.skyFactors)
+    {
+        moments.reserve(2 * tile.skyOffsets.size());
+        for (size_t k = 0; k < tile.skyOffsets.size(); ++k)
+            for (const u32 half : {tile.skyOffsets[k] & 0xFFFF, tile.skyOffsets[k] >> 16}) {
+                const float offset = std::max(float(std::int16_t(u16(half))) / 32767.0f, -1.0f);
+                moments.push_back(offset * gpu::kMomentLimit * factors[k]);
+            }
+    }
+    LinkRows links(u32 skyCount) const { return {rows, columns, factors, moments, moments.empty() ? skyCount : 0}; }
+
+    std::span<const u32> rows, columns;
+    std::span<const float> factors;
+    std::vector<float> moments;
+};
+
+/// Rows of links by level, downwards: the inner nodes from the highest, then the patches.
+std::vector<RowLevel> downwards(const std::vector<TreeLevel>& levels, u32 patchCount)
+{
+    std::vector<RowLevel> rows;
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level) rows.push_back({level->first, level->count});
+    rows.push_back({0, patchCount});
+    return rows;
 }
 
-/// Does the gather that reads texel buffers serve: the radiosity and the longest row in one view each, few pages?
-bool texelsServe(const Context& context, const TileView& tile)
+Result<LinkBuffers> packAndUpload(Context& context, const char* name, const LinkRows& links,
+                                  std::span<const RowLevel> levels, std::span<const gpu::NodeRecord> parents,
+                                  const PackOptions& options)
 {
-    const LinkRows links = linksOf(tile);
-    u64 recordCount = 0, longestRow = 0;
-    for (u32 i = 0; i < links.rowCount(); ++i) {
-        const u64 records = recordsOfRow(links, i).all;
-        recordCount += records;
-        longestRow = std::max(longestRow, records);
-    }
-    const u64 slopes = links.linear() ? 2 * (tile.nodes.size() - tile.patches.size()) : 0;
-    return context.texelsFit(std::max<u64>(tile.nodes.size(), slopes)) && context.texelsFit(longestRow) &&
-           context.texelsFit(recordCount / 64);
+    Result<PackedLinks> packed = packLinks(links, levels, options);
+    if (!packed) return packed.error();
+    for (gpu::RowRecord& row : packed->rows)
+        if (row.receiver < parents.size()) row.parent = parents[row.receiver].parent;
+    return uploadLinks(context, name, *packed, links);
+}
+
+/// Elements of the largest array that the solve reads, the links aside.
+u64 largestArray(const TileView& tile)
+{
+    const u64 inner = tile.nodes.size() - tile.patches.size();
+    const u64 senders = tile.patches.size() + (tile.linkMoments.empty() ? 1 : 2) * inner;
+    return std::max({senders, u64(tile.children.size()), u64(tile.nodes.size() + tile.nodes.size() / 4)});
 }
 
 } // namespace
+
+LinkBuffers uploadLinks(Context& context, const std::string& name, const PackedLinks& packed, const LinkRows& links)
+{
+    LinkBuffers out;
+    out.stride = links.linear() ? 2 : 1;
+    out.senderPatches = links.patchCount;
+    out.linkCount = links.columns.size();
+    out.factorBits = packed.factorBits;
+    out.singles = packed.singles;
+    out.bytes = packed.bytes();
+    out.rows = makeBuffer(context, name + " rows", packed.rows);
+    out.strips = makeBuffer(context, name + " strips", packed.strips);
+    for (const LinkPage& page : packed.pages)
+        out.pages.push_back(
+            {page,
+             makeBuffer(
+                 context, name,
+                 std::span<const gpu::LinkQuadRecord>(packed.records).subspan(page.recordFirst, page.recordCount)),
+             makeBuffer(
+                 context, name + " moments",
+                 std::span<const gpu::MomentQuadRecord>(packed.moments).subspan(page.momentFirst, page.momentCount))});
+    out.dispatches = packed.dispatches;
+    return out;
+}
 
 std::vector<u32> staticTriangles(const TileView& tile)
 {
@@ -51,50 +105,52 @@ u32 countStaticVertices(const TileView& tile)
     return count;
 }
 
-Result<TileTables> uploadTile(Context& context, const TileView& tile)
+Result<TileTables> uploadTile(Context& context, const TileView& tile, const UploadOptions& options)
 {
     if (tile.patches.empty()) return Error{"the pack has no patches: there is nothing to light"};
     TileTables t;
     t.patchCount = u32(tile.patches.size());
     t.nodeCount = u32(tile.nodes.size());
+    std::vector<glm::vec4> reflectance, emission, planes;
     for (const gpu::PatchRecord& patch : tile.patches) {
         t.patchArea += double(patch.area);
         t.emits = t.emits || patch.emission != glm::vec4(0.0f);
+        reflectance.push_back(patch.rho);
+        emission.push_back(patch.emission);
+        planes.emplace_back(patch.normal, patch.area);
     }
+    std::vector<glm::uvec2> nodes;
+    for (const gpu::NodeRecord& node : tile.nodes) nodes.emplace_back(node.parent, std::bit_cast<u32>(node.area));
     t.linear = !tile.linkMoments.empty();
     t.contraction = contractionOf(tile);
     auto tree = buildTreeLevels(tile.nodes, tile.children, t.patchCount, tile.childSlopes);
     if (!tree) return tree.error();
-    t.texelLinks = texelsServe(context, tile);
-    const u64 recordsPerPage = t.texelLinks ? context.facts().maxTexelBufferElements
-                                            : context.facts().maxStorageBufferBytes / sizeof(gpu::LinkPairRecord);
-    auto links = packLinks(linksOf(tile), recordsPerPage);
+    t.levels = std::move(tree->levels);
+    // Links come in pages, but not in hundreds.
+    const u64 largest = std::max(largestArray(tile), u64(tile.linkColumns.size() / 64));
+    t.reads = options.reads ? *options.reads : fastestReads(context, largest);
+    const u64 records = t.reads == Reads::Storage ? context.facts().maxStorageBufferBytes / 16
+                                                  : u64(context.facts().maxTexelBufferElements);
+    const PackOptions pack{options.exactLinks, std::min(records, options.maxRecords)};
+    const LinkRows rows{tile.linkRows, tile.linkColumns, tile.linkFactors, tile.linkMoments, t.patchCount};
+    auto links = packAndUpload(context, "links", rows, downwards(t.levels, t.patchCount), tile.nodes, pack);
     if (!links) return links.error();
+    t.links = std::move(*links);
+    const SkyRows sky(tile);
+    const RowLevel allPatches{0, t.patchCount};
+    auto skyLinks =
+        packAndUpload(context, "sky links", sky.links(u32(tile.skyPatches.size())), {&allPatches, 1}, {}, pack);
+    if (!skyLinks) return skyLinks.error();
+    t.skyLinks = std::move(*skyLinks);
+    t.skyPatches.assign(tile.skyPatches.begin(), tile.skyPatches.end());
 
-    t.patches = makeBuffer(context, "patches", tile.patches);
-    t.nodes = makeBuffer(context, "nodes", tile.nodes);
-    t.parents = makeBuffer(context, "parents", tree->parents);
+    t.reflectance = makeBuffer(context, "reflectance", reflectance);
+    t.emission = makeBuffer(context, "emission", t.emits ? emission : std::vector<glm::vec4>(1));
+    t.planes = makeBuffer(context, "planes", planes);
+    t.nodes = makeBuffer(context, "nodes", nodes);
     t.childRows = makeBuffer(context, "child rows", tree->childRows);
     t.children = makeBuffer(context, "children", tree->children);
-    if (t.linear) t.childSlopes = makeBuffer(context, "child slopes", tree->childSlopes);
-    t.levels = std::move(tree->levels);
-
-    t.linkOrder = makeBuffer(context, "link order", links->order);
-    t.linkRows = makeBuffer(context, "link rows", links->rows);
-    for (const LinkPage& page : links->pages)
-        t.links.push_back({page, makeBuffer(context, "links",
-                                            std::span<const gpu::LinkPairRecord>(links->records)
-                                                .subspan(page.recordFirst, page.recordCount))});
-
-    if (tile.skyColumns.size_bytes() > context.facts().maxStorageBufferBytes)
-        return Error{concat(tile.skyColumns.size(), " sky links are more than one buffer of this device holds (",
-                            context.facts().maxStorageBufferBytes, " bytes); bake with fewer --sky-patches")};
-    t.skyPatches.assign(tile.skyPatches.begin(), tile.skyPatches.end());
-    t.skyRows = makeBuffer(context, "sky rows", tile.skyRows);
-    t.skyColumns = makeBuffer(context, "sky columns", tile.skyColumns);
-    t.skyFactors = makeBuffer(context, "sky factors", tile.skyFactors);
-    t.hasSkyOffsets = !tile.skyOffsets.empty();
-    t.skyOffsets = makeBuffer(context, "sky offsets", tile.skyOffsets);
+    t.turns = makeBuffer(context, "child turns", tree->turns);
 
     t.vertices = makeBuffer(context, "vertices", tile.vertices);
     t.indices = makeBuffer(context, "indices", tile.indices);

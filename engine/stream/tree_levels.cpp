@@ -12,8 +12,6 @@ Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::
                 children.size(), " children");
     HELIO_CHECK(patchCount <= nodes.size(), patchCount, " patches in ", nodes.size(), " nodes");
     TreeLevels tree;
-    tree.parents.reserve(nodes.size());
-    for (const gpu::NodeRecord& node : nodes) tree.parents.push_back(node.parent);
     tree.childRows.push_back(0);
 
     std::vector<u32> height(nodes.size(), 0);
@@ -29,9 +27,16 @@ Result<TreeLevels> buildTreeLevels(std::span<const gpu::NodeRecord> nodes, std::
                 return Error{concat("node ", child, " is a child of node ", i, " but names ", nodes[child].parent,
                                     " as its parent")};
             height[i] = std::max(height[i], height[child] + 1);
-            tree.children.push_back(
-                {child, node.area > 0.0f ? float(double(nodes[child].area) / double(node.area)) : 0.0f});
-            if (!childSlopes.empty()) tree.childSlopes.push_back(childSlopes[node.childBegin + k]);
+            gpu::ChildRecord record{};
+            record.node = child;
+            if (node.area > 0.0f) record.weight = float(double(nodes[child].area) / double(node.area));
+            if (!childSlopes.empty()) {
+                const gpu::ChildSlopeRecord& slope = childSlopes[node.childBegin + k];
+                record.offsetX = slope.offsetX;
+                record.offsetY = slope.offsetY;
+                tree.turns.emplace_back(slope.xx, slope.xy, slope.yx, slope.yy);
+            }
+            tree.children.push_back(record);
         }
         tree.childRows.push_back(u32(tree.children.size()));
         if (i > patchCount && height[i] < height[i - 1])

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -17,14 +18,13 @@ struct TreeLevel
     bool operator==(const TreeLevel&) const = default;
 };
 
-/// The tree as push and pull read it.
+/// The tree as the pull reads it.
 struct TreeLevels
 {
-    std::vector<TreeLevel> levels;                  ///< upwards; level 0 is the parents of patches alone
-    std::vector<u32> parents;                       ///< a node
-    std::vector<u32> childRows;                     ///< inner nodes + 1 offsets into children
-    std::vector<gpu::ChildRecord> children;         ///< in the pack's order
-    std::vector<gpu::ChildSlopeRecord> childSlopes; ///< parallel to them; empty: constant senders
+    std::vector<TreeLevel> levels;          ///< upwards; level 0 is the parents of patches alone
+    std::vector<u32> childRows;             ///< inner nodes + 1 offsets into children
+    std::vector<gpu::ChildRecord> children; ///< in the pack's order; offsets 0 with constant senders
+    std::vector<glm::vec4> turns;           ///< parallel to them: xx, xy, yx, yy; empty: constant senders
 };
 
 /// Orders the tree by height (leaf 0, else 1 + the highest child). The nodes must be patches first, then inner nodes by

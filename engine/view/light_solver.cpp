@@ -62,15 +62,17 @@ LightSolver::LightSolver(Context& context, const TileTables& tile, const Rendere
       density_(makeZeros(context, "sun density", tile.nodeCount)), sun_(makeZeros(context, "E_sun", tile.patchCount)),
       tally_(makeBuffer(context, "sun tally", std::vector<gpu::SunTallyRecord>(1))),
       sky_(makeZeros(context, "E_sky", tile.patchCount)), b0_(makeZeros(context, "B0", tile.patchCount)),
-      radiosity_(makeZeros(context, "B", tile.nodeCount)),
       irradiance_(makeZeros(context, "E_indirect", tile.nodeCount)),
-      slopes_(makeZeros(context, "slopes of B", tile.linear ? 2 * u64(tile.innerCount()) : 1)),
-      before_(makeZeros(context, "B before", 1)),
-      partials_(context, {"residual parts", u64(updateGroups(tile)) * sizeof(gpu::ResidualRecord)}),
+      parts_(context, {"residual parts", u64(residualParts(tile)) * sizeof(gpu::ResidualRecord)}),
       residual_(context, {"residual", sizeof(gpu::ResidualRecord)}),
+      senders_{makeZeros(context, "B", tile.senderCount()), makeZeros(context, "B, other", tile.senderCount())},
       residualHost_(context, {"residual on the host", sizeof(gpu::ResidualRecord), Memory::Readback}),
       tallyHost_(context, {"tally on the host", sizeof(gpu::SunTallyRecord), Memory::Readback})
 {
+    if (options_.histogram)
+        histogram_ = *options_.histogram;
+    else
+        histogram_ = fasterHistogram(context);
     options_.sun.maxViewSize = std::min(options_.sun.maxViewSize, context.facts().maxImageDimension2D);
     options_.sun.maxViews = std::min(options_.sun.maxViews, context.facts().maxImageArrayLayers);
     if (tile.contraction.largest() >= kSlowContraction) estimateSpectrum();
@@ -88,22 +90,22 @@ void LightSolver::execute(FrameGraph& graph, bool timed)
 void LightSolver::estimateSpectrum()
 {
     const auto radiosities = [&] {
-        return asItems<glm::vec4>(download(context_, radiosity_, 0, u64(tile_.patchCount) * sizeof(glm::vec4)));
+        return asItems<glm::vec4>(download(context_, radiosity(), 0, u64(tile_.patchCount) * sizeof(glm::vec4)));
     };
     // B0 is zero as yet: a sweep is B = rho F B, and B starts as 1 everywhere.
-    upload(context_, radiosity_, std::vector<glm::vec4>(tile_.nodeCount, glm::vec4(1.0f)));
+    upload(context_, radiosity(), std::vector<glm::vec4>(tile_.patchCount, glm::vec4(1.0f)));
     std::vector<glm::vec4> before;
     for (u32 k = 0; k < kPowerSweeps; ++k) {
         FrameGraph graph("power iteration");
         LightRefs light = lightIn(graph);
-        if (k == 0) light = addPullLight(graph, tile_, light);
-        (void)addSweep(graph, tile_, light, graph.import(partials_), graph.import(residual_));
+        if (k == 0) light.senders = addPullSenders(graph, tile_, light.senders);
         if (k + 1 == kPowerSweeps) before = radiosities();
+        (void)addSweepTo(graph, light);
         execute(graph, false);
     }
-    spectrum_ = spectralBounds(downloadItems<gpu::PatchRecord>(context_, tile_.patches), before, radiosities());
+    spectrum_ = spectralBounds(downloadItems<glm::vec4>(context_, tile_.reflectance),
+                               downloadItems<glm::vec4>(context_, tile_.planes), before, radiosities());
     radius_ = chebyshevRadius(spectrum_, tile_.contraction.number);
-    if (radius_ != glm::dvec4(0.0)) before_ = makeZeros(context_, "B before", tile_.patchCount);
 }
 
 void LightSolver::run(FrameGraph& graph, const char* other)
@@ -162,8 +164,8 @@ void LightSolver::solveSun(const LightState& light)
         lists.emplace_back(context_, raster ? visibleDraws(tile_.chunks, sunView_.clipFromWorld(view))
                                             : std::vector<gpu::DrawRecord>{});
         pictures = addSunRaster(graph, tile_, lists.back(), sunView_, view, pictures);
-        counts = addHistogram(graph, pictures.ids, counts, sunView_.width, sunView_.height, tile_.patchCount,
-                              {!options_.plainHistogram});
+        counts =
+            addHistogram(graph, pictures.ids, counts, sunView_.width, sunView_.height, tile_.patchCount, histogram_);
     }
     const SunEnergyInput input{glm::vec3(light.towardsSun), glm::vec4(raster ? float(light.dni) : 0.0f),
                                sunView_.texelArea(), float(light.sunRadius)};
@@ -185,9 +187,10 @@ void LightSolver::solveSun(const LightState& light)
 
 void LightSolver::solveSky(const LightState& light)
 {
-    const Buffer radiance = makeBuffer(context_, "sky radiance", outsideRadiance(tile_.skyPatches, light));
+    const Buffer senders =
+        makeBuffer(context_, "sky radiance", skySenders(tile_, outsideRadiance(tile_.skyPatches, light)));
     FrameGraph graph("sky");
-    (void)addSkyEnergy(graph, tile_, graph.import(radiance), graph.import(sky_));
+    (void)addSkyEnergy(graph, tile_, graph.import(senders), graph.import(sky_));
     run(graph, kSkyStage);
 }
 
@@ -204,9 +207,14 @@ void LightSolver::takeGiven(const FirstLight& light)
 
 LightRefs LightSolver::lightIn(FrameGraph& graph) const
 {
-    LightRefs light{graph.import(b0_), graph.import(radiosity_), graph.import(irradiance_), {}};
-    if (tile_.linear) light.slopes = graph.import(slopes_);
-    return light;
+    return {graph.import(b0_), graph.import(senders_[current_]), graph.import(irradiance_)};
+}
+
+SweepResult LightSolver::addSweepTo(FrameGraph& graph, LightRefs light, glm::vec4 weight)
+{
+    current_ = 1 - current_;
+    return addSweep(graph, tile_, light,
+                    {graph.import(senders_[current_]), graph.import(parts_), graph.import(residual_)}, weight);
 }
 
 void LightSolver::firstLight(const LightState& light, bool warm)
@@ -230,11 +238,8 @@ void LightSolver::sweep(const LightState& light, bool warm)
     for (report_.sweeps = 0; report_.sweeps < limit;) {
         FrameGraph graph("sweep");
         weight = chebyshevWeight(report_.sweeps, weight, radius);
-        std::optional<ChebyshevRefs> chebyshev;
-        if (report_.accelerated) chebyshev = {graph.import(before_), glm::vec4(weight)};
-        const UpdateRefs result =
-            addSweep(graph, tile_, lightIn(graph), graph.import(partials_), graph.import(residual_), chebyshev);
-        addReadback(graph, result.residual, residualHost_);
+        const SweepResult result = addSweepTo(graph, lightIn(graph), glm::vec4(weight));
+        addReadback(graph, result.spent.residual, residualHost_);
         run(graph, kGatherStage);
         ++report_.sweeps;
         const auto sums = readHost<gpu::ResidualRecord>(residualHost_);

@@ -6,6 +6,7 @@
 #include "engine/stages/acceleration.h"
 #include "engine/stages/draw_list.h"
 #include "engine/stages/gather.h"
+#include "engine/stages/histogram.h"
 #include "engine/stages/sun_view.h"
 #include "engine/view/light_state.h"
 #include "engine/view/renderer.h"
@@ -30,11 +31,11 @@ public:
     RendererOptions& options() { return options_; }
     const SunView& sunView() const { return sunView_; }
     const Image& shadow() const { return *shadow_; }
-    const Buffer& counts() const { return counts_; }             ///< u32 a patch
-    const Buffer& sun() const { return sun_; }                   ///< vec4 a patch
-    const Buffer& sky() const { return sky_; }                   ///< vec4 a patch
-    const Buffer& indirect() const { return irradiance_; }       ///< vec4 a node; E_indirect at the patches
-    const Buffer& radiosity() const { return radiosity_; }       ///< vec4 a node
+    const Buffer& counts() const { return counts_; }               ///< u32 a patch
+    const Buffer& sun() const { return sun_; }                     ///< vec4 a patch
+    const Buffer& sky() const { return sky_; }                     ///< vec4 a patch
+    const Buffer& indirect() const { return irradiance_; }         ///< vec4 a node; E_indirect at the patches
+    const Buffer& radiosity() const { return senders_[current_]; } ///< vec4 a patch first, see shaders/shared/solve.h
     const SpectralBounds& spectrum() const { return spectrum_; } ///< zero where the contraction number is below a half
 
 private:
@@ -48,6 +49,8 @@ private:
     void execute(FrameGraph& graph, bool timed);
     void run(FrameGraph& graph, const char* other);
     LightRefs lightIn(FrameGraph& graph) const;
+    /// Adds a sweep; afterwards the other array of senders is the newest.
+    SweepResult addSweepTo(FrameGraph& graph, LightRefs light, glm::vec4 weight = glm::vec4(1.0f));
 
     Context& context_;
     const TileTables& tile_;
@@ -56,12 +59,15 @@ private:
     std::optional<LightState> solved_;
     SolveOptions solvedWith_;
     SolveReport report_;
+    HistogramVariant histogram_ = HistogramVariant::Columns;
 
     SpectralBounds spectrum_;
     glm::dvec4 radius_{0.0}; ///< see chebyshevRadius
     SunView sunView_;
     std::optional<Image> ids_, shadow_;
-    Buffer counts_, density_, sun_, tally_, sky_, b0_, radiosity_, irradiance_, slopes_, before_, partials_, residual_;
+    Buffer counts_, density_, sun_, tally_, sky_, b0_, irradiance_, parts_, residual_;
+    Buffer senders_[2]; ///< a sweep reads the one and writes the other
+    u32 current_ = 0;   ///< the newest
     Buffer residualHost_, tallyHost_;
 };
 

@@ -11,14 +11,13 @@
 
 namespace helio {
 
-std::vector<gpu::SkyRadianceRecord> outsideRadiance(std::span<const gpu::SkyPatchRecord> skyPatches,
-                                                    const LightState& light)
+std::vector<SkyRadiance> outsideRadiance(std::span<const gpu::SkyPatchRecord> skyPatches, const LightState& light)
 {
     const u32 cells = skyCellCount(skyPatches);
     HELIO_CHECK(light.skyRadiance.empty() || light.skyRadiance.size() == cells, light.skyRadiance.size(),
                 " radiances of ", cells, " cells");
     const CellRadiance uniform{float(light.dhi / std::numbers::pi), {}};
-    std::vector<gpu::SkyRadianceRecord> radiance;
+    std::vector<SkyRadiance> radiance;
     for (u32 i = 0; i < cells; ++i) {
         const CellRadiance& cell = light.skyRadiance.empty() ? uniform : light.skyRadiance[i];
         radiance.push_back({glm::vec4(cell.mean), cell.slope});

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "city/base/types.h"
+#include "engine/stages/sky_energy.h"
 #include "shaders/shared/records.h"
-#include "shaders/shared/solve.h"
 
 namespace helio {
 
@@ -46,8 +46,7 @@ struct LightState
 
 /// Radiance of each sky patch, W/m2/sr: the sky's own, or of DHI / pi where it is uniform; of the ground beyond the
 /// scene, rho / pi (DNI sin(elevation) + DHI): a plain with nothing before it.
-std::vector<gpu::SkyRadianceRecord> outsideRadiance(std::span<const gpu::SkyPatchRecord> skyPatches,
-                                                    const LightState& light);
+std::vector<SkyRadiance> outsideRadiance(std::span<const gpu::SkyPatchRecord> skyPatches, const LightState& light);
 
 /// Puts the sun's disc into the sky. Where the horizon cuts it, the light is that of the part above: its share of the
 /// DNI from its centroid, so that an open horizontal plane gets what the part gives it; nothing when the disc has set.

@@ -113,7 +113,7 @@ Renderer::~Renderer()
 Result<std::unique_ptr<Renderer>> Renderer::create(Context& context, const TileView& tile, double northDeg,
                                                    const RendererOptions& options)
 {
-    auto tables = uploadTile(context, tile);
+    auto tables = uploadTile(context, tile, options.upload);
     if (!tables) return tables.error();
     auto impl = std::make_unique<Impl>(context, tile, std::move(*tables), northDeg, options);
     std::unique_ptr<Renderer> renderer(new Renderer(std::move(impl)));
@@ -167,6 +167,10 @@ SolveOptions& Renderer::solveOptions()
 const LightState& Renderer::light() const
 {
     return impl_->light;
+}
+const TileTables& Renderer::tables() const
+{
+    return impl_->tile;
 }
 const SolveReport& Renderer::solve()
 {

@@ -2,6 +2,7 @@
 #pragma once
 #include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include "engine/gpu/context.h"
 #include "engine/gpu/recorder.h"
 #include "engine/graph/frame_graph.h"
+#include "engine/stages/histogram.h"
 #include "engine/stages/sun_view.h"
+#include "engine/stream/tile_tables.h"
 #include "engine/view/camera.h"
 #include "engine/view/light_state.h"
 #include "shaders/shared/view.h"
@@ -32,7 +35,8 @@ struct RendererOptions
 {
     SunViewOptions sun;
     SolveOptions solve;
-    bool plainHistogram = false; ///< the twin without subgroup aggregation
+    std::optional<HistogramVariant> histogram; ///< none: the one that is faster on the device
+    UploadOptions upload;
 };
 
 struct SolveReport
@@ -105,6 +109,8 @@ public:
     void setFirstLight(std::shared_ptr<const FirstLight> light);
     SolveOptions& solveOptions();
     const LightState& light() const;
+    /// What lies on the device.
+    const TileTables& tables() const;
     /// One sentence if the links may keep the sweeps from converging or their error from being bounded; else empty.
     const std::string& note() const;
 

@@ -82,6 +82,8 @@ const char* stageName(ShaderStage stage)
 const char* kindName(BindingKind kind)
 {
     switch (kind) {
+    case BindingKind::StorageTexelBuffer:
+        return "StorageTexelBuffer";
     case BindingKind::UniformTexelBuffer:
         return "UniformTexelBuffer";
     case BindingKind::SampledImage:

@@ -218,7 +218,8 @@ Result<BindingKind> Reader::kindOf(u32 typeId, u32 storage) const
     if (type.op == kOpTypeImage) {
         // Operands: sampled type, dim, depth, arrayed, multisampled, sampled (1 = with a sampler, 2 = storage), format.
         if (type.operands[1] == kDimBuffer && type.operands[5] == 1) return BindingKind::UniformTexelBuffer;
-        if (type.operands[1] != kDimBuffer && type.operands[5] == 2) return BindingKind::StorageImage;
+        if (type.operands[5] == 2)
+            return type.operands[1] == kDimBuffer ? BindingKind::StorageTexelBuffer : BindingKind::StorageImage;
         return Error{"a separate image or a storage texel buffer; use a combined sampler, image2D or a storage buffer"};
     }
     return Error{"an array of descriptors or a kind of descriptor that is not in use"};

@@ -25,7 +25,7 @@ HELIO_SIZE(SunRasterParams, 80);
 // Histogram: lanes side by side in x, each walks kHistogramRun rows down, kHistogramStep texels at a time.
 HELIO_CONSTANT uint kHistogramGroup = 64u;
 HELIO_CONSTANT uint kHistogramRun = 64u;
-HELIO_CONSTANT uint kHistogramStep = 8u;
+HELIO_CONSTANT uint kHistogramStep = 16u;
 HELIO_CONSTANT uint kHistogramIds = 0u;    // binding: r32ui image
 HELIO_CONSTANT uint kHistogramCounts = 1u; // binding: one counter a patch
 struct HistogramParams {   // push constant
@@ -37,9 +37,9 @@ HELIO_SIZE(HistogramParams, 12);
 
 HELIO_CONSTANT uint kSunGroup = 64u;
 HELIO_CONSTANT uint kSunCounts = 0u;   // bindings of sun_density and sun_energy
-HELIO_CONSTANT uint kSunPatches = 1u;
+HELIO_CONSTANT uint kSunPlanes = 1u;    // a patch: normal and area
 HELIO_CONSTANT uint kSunDensity = 2u;
-HELIO_CONSTANT uint kSunNodes = 3u;
+HELIO_CONSTANT uint kSunNodes = 3u;     // a node: parent and area
 HELIO_CONSTANT uint kSunIrradiance = 4u;
 HELIO_CONSTANT uint kSunTally = 5u;
 struct SunEnergyParams {   // push constant

@@ -18,7 +18,7 @@ HELIO_CONSTANT uint kModeRadiosity = 7u;
 
 HELIO_CONSTANT uint kForwardView = 0u;     // ViewRecord
 HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array
-HELIO_CONSTANT uint kForwardPatches = 2u;
+HELIO_CONSTANT uint kForwardEmission = 2u;
 HELIO_CONSTANT uint kForwardSun = 3u;
 HELIO_CONSTANT uint kForwardSky = 4u;
 HELIO_CONSTANT uint kForwardIndirect = 5u;

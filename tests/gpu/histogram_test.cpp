@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stage 2 against a count on the host: exact for every picture, with subgroup aggregation and with its plain twin.
+// Stage 2 against a count on the host: exact for every picture, in both variants.
 #include "engine/stages/histogram.h"
 
 #include "city/base/hash.h"
@@ -21,7 +21,7 @@ TEST(StageTwins, CountsAPictureWrittenByHand)
 class HistogramTest : public GpuTest
 {
 protected:
-    std::vector<u32> count(const std::vector<u32>& ids, u32 width, u32 height, u32 patchCount, bool aggregate,
+    std::vector<u32> count(const std::vector<u32>& ids, u32 width, u32 height, u32 patchCount, HistogramVariant variant,
                            const std::vector<u32>& before)
     {
         const Image image(context(), {"ids", width, height, VK_FORMAT_R32_UINT, 1,
@@ -29,7 +29,7 @@ protected:
         uploadImage(context(), image, std::as_bytes(std::span(ids)));
         const Buffer counts = makeBuffer(context(), "counts", before);
         FrameGraph graph("histogram");
-        (void)addHistogram(graph, graph.import(image), graph.import(counts), width, height, patchCount, {aggregate});
+        (void)addHistogram(graph, graph.import(image), graph.import(counts), width, height, patchCount, variant);
         const Status compiled = graph.compile(context());
         EXPECT_TRUE(compiled.ok());
         Recorder recorder(context());
@@ -43,10 +43,10 @@ protected:
     {
         const std::vector<u32> expected = twin::countIds(ids, patchCount);
         const std::vector<u32> zero(patchCount, 0);
-        EXPECT_EQ(count(ids, width, height, patchCount, true, zero), expected)
-            << width << " x " << height << ", aggregated";
-        EXPECT_EQ(count(ids, width, height, patchCount, false, zero), expected)
-            << width << " x " << height << ", plain";
+        EXPECT_EQ(count(ids, width, height, patchCount, HistogramVariant::Subgroups, zero), expected)
+            << width << " x " << height << ", subgroups";
+        EXPECT_EQ(count(ids, width, height, patchCount, HistogramVariant::Columns, zero), expected)
+            << width << " x " << height << ", columns";
     }
 };
 
@@ -94,7 +94,13 @@ TEST_F(HistogramTest, SizesThatFillNoGroup)
 TEST_F(HistogramTest, AddsToWhatOtherViewsCounted)
 {
     const std::vector<u32> ids(64 * 64, 1);
-    EXPECT_EQ(count(ids, 64, 64, 3, true, {5, 6, 7}), (std::vector<u32>{5, 6 + 64 * 64, 7}));
+    EXPECT_EQ(count(ids, 64, 64, 3, HistogramVariant::Columns, {5, 6, 7}), (std::vector<u32>{5, 6 + 64 * 64, 7}));
+}
+
+TEST_F(HistogramTest, TheFasterVariantIsOneOfTheTwo)
+{
+    const HistogramVariant variant = fasterHistogram(context());
+    EXPECT_TRUE(variant == HistogramVariant::Columns || variant == HistogramVariant::Subgroups);
 }
 
 } // namespace

@@ -450,10 +450,10 @@ TEST_F(RenderCli, BenchReports)
     const Result<Pack> pack = Pack::open(temp_ / "p");
     ASSERT_TRUE(pack.ok());
     for (const std::string& word :
-         {concat(pack->patchCount(), " patches"), concat(pack->tile().linkColumns.size(), " links"),
+         {concat("patches: ", pack->patchCount()), concat("links: ", pack->tile().linkColumns.size()),
           std::string("triangles"), std::string("median"), std::string("pack open"), std::string("sun change, cold"),
-          std::string("sun raster"), std::string("gather"), std::string("one warm sweep"), std::string("camera move"),
-          std::string("stream copy"), std::string("GB/s")})
+          std::string("sun raster"), std::string("gather"), std::string("sweep, mean of 16"),
+          std::string("camera move"), std::string("GB/s")})
         EXPECT_NE(result.out.find(word), std::string::npos) << word << " in\n" << result.out;
     const nlohmann::json json = nlohmann::json::parse(bytesOf("r.json"), nullptr, false);
     ASSERT_TRUE(json.is_object());
@@ -462,6 +462,17 @@ TEST_F(RenderCli, BenchReports)
     EXPECT_GT(json["benchmarks"].size(), 5u);
     for (const auto& entry : json["benchmarks"]) EXPECT_GE(entry["real_time"].get<double>(), 0.0) << entry.dump();
     EXPECT_EQ(temp_.entryCount(), 2u) << "pack and report";
+    const RunResult compared = test::runProgram(HELIO_BENCH, "--compare r.json r.json", temp_.path());
+    ASSERT_EQ(compared.exitCode, 0) << compared.err;
+    EXPECT_NE(compared.out.find("sun change, cold"), std::string::npos) << compared.out;
+    EXPECT_NE(compared.out.find(" 1.000"), std::string::npos) << compared.out;
+    expectRefusal("--compare r.json none.json", "none.json", HELIO_BENCH);
+    expectRefusal("--compare r.json p/index", "p/index", HELIO_BENCH);
+    const RunResult kernels =
+        test::runProgram(HELIO_BENCH, "--only \"stream copy\" --repeats 2 --copy 1", temp_.path());
+    ASSERT_EQ(kernels.exitCode, 0) << kernels.err;
+    EXPECT_NE(kernels.out.find("stream copy"), std::string::npos) << kernels.out;
+    EXPECT_EQ(kernels.out.find("gather"), std::string::npos) << kernels.out;
 
     EXPECT_EQ(test::runProgram(HELIO_BENCH, "--help", temp_.path()).exitCode, 0);
     expectRefusal("none", "none", HELIO_BENCH);

@@ -95,7 +95,12 @@ TEST(Acceleration, BoundsTheEigenvalueFromBothSides)
         after[0][c] = float(double(patches[0].rho[c]) * f01 * 0.5);
         after[1][c] = float(double(patches[1].rho[c]) * f10 * 1.0);
     }
-    const SpectralBounds bounds = spectralBounds(patches, before, after);
+    std::vector<glm::vec4> reflectance, planes;
+    for (const gpu::PatchRecord& patch : patches) {
+        reflectance.push_back(patch.rho);
+        planes.emplace_back(patch.normal, patch.area);
+    }
+    const SpectralBounds bounds = spectralBounds(reflectance, planes, before, after);
     for (const int c : {0, 1, 3}) {
         const double exact = std::sqrt(double(patches[0].rho[c]) * f01 * double(patches[1].rho[c]) * f10);
         EXPECT_GE(bounds.upper[c], exact);

@@ -2,14 +2,12 @@
 // The engine's pure parts: no device.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
 
 #include "engine/stream/corners.h"
 #include "engine/stream/draw_chunks.h"
-#include "engine/stream/link_packing.h"
 #include "engine/stream/tile_tables.h"
 #include "engine/stream/tree_levels.h"
 #include "tests/support/tile_builder.h"
@@ -17,101 +15,6 @@
 namespace helio {
 
 namespace {
-
-TEST(LinkPacking, PairsARowAndPadsOddOnes)
-{
-    const std::vector<u32> rows{0, 3, 3, 5}, columns{7, 8, 9, 4, 5};
-    const std::vector<float> factors{0.1f, 0.2f, 0.3f, 0.4f, 0.5f};
-    const auto packed = packLinks({rows, columns, factors, {}, 0}, 100);
-    ASSERT_TRUE(packed.ok());
-    EXPECT_EQ(packed->order, (std::vector<u32>{0, 2, 1})) << "the longer first";
-    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 3, 3}));
-    ASSERT_EQ(packed->records.size(), 3u);
-    EXPECT_EQ(packed->records[0].column1, 8u);
-    EXPECT_EQ(packed->records[1].column0, 9u);
-    EXPECT_EQ(std::bit_cast<float>(packed->records[1].factor0), 0.3f);
-    EXPECT_EQ(packed->records[1].column1, 9u) << "the padding reads nothing new";
-    EXPECT_EQ(packed->records[1].factor1, 0u);
-    EXPECT_EQ(std::bit_cast<float>(packed->records[2].factor1), 0.5f);
-    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 3, 0, 3}}));
-}
-
-TEST(LinkPacking, PagesHoldWholeRows)
-{
-    // Rows of 3, 2, 2, 1 and 0 pairs in this order; three pairs a page.
-    const std::vector<u32> rows{0, 4, 9, 9, 11, 15}, columns(15, 1);
-    const std::vector<float> factors(15, 0.5f);
-    const auto packed = packLinks({rows, columns, factors, {}, 0}, 3);
-    ASSERT_TRUE(packed.ok());
-    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 1, 0, 3}, {1, 1, 3, 2}, {2, 3, 5, 3}}));
-}
-
-TEST(LinkPacking, SortsInsideBlocksAlone)
-{
-    // Every fifth row is longer than the others, in a block and a bit.
-    std::vector<u32> rows{0};
-    for (u32 i = 0; i < kRowBlock + 10; ++i) rows.push_back(rows.back() + (i % 5 == 4 ? 3 : 1));
-    const std::vector<u32> columns(rows.back(), 0);
-    const std::vector<float> factors(rows.back(), 0.5f);
-    const auto packed = packLinks({rows, columns, factors, {}, 1}, 1u << 20);
-    ASSERT_TRUE(packed.ok());
-    std::vector<bool> seen(kRowBlock + 10, false);
-    for (u32 k = 0; k < packed->order.size(); ++k) {
-        const u32 row = packed->order[k];
-        EXPECT_EQ(row / kRowBlock, k / kRowBlock);
-        EXPECT_EQ(packed->rows[k + 1] - packed->rows[k], (rows[row + 1] - rows[row] + 1) / 2);
-        EXPECT_FALSE(seen[row]);
-        seen[row] = true;
-        if (k % kRowBlock > 0) {
-            EXPECT_LE(packed->rows[k + 1] - packed->rows[k], packed->rows[k] - packed->rows[k - 1]);
-        }
-    }
-    EXPECT_EQ(packed->order[0], 4u);
-    EXPECT_EQ(packed->order[kRowBlock], kRowBlock + 2) << "514 = 4 mod 5";
-}
-
-TEST(LinkPacking, RefusesARowThatNoPageHolds)
-{
-    const std::vector<u32> rows{0, 7}, columns(7, 0);
-    const std::vector<float> factors(7, 0.1f), moments(14, 0.0f);
-    const auto packed = packLinks({rows, columns, factors, {}, 1}, 3);
-    ASSERT_FALSE(packed.ok());
-    EXPECT_NE(packed.error().message.find("node 0 has 7 links"), std::string::npos) << packed.error().message;
-    // Without moments that matter seven links are four records; with them seven.
-    EXPECT_TRUE(packLinks({rows, columns, factors, moments, 1}, 4).ok());
-    EXPECT_FALSE(packLinks({rows, columns, factors, moments, 0}, 6).ok());
-    EXPECT_TRUE(packLinks({rows, columns, factors, moments, 0}, 7).ok());
-}
-
-TEST(LinkPacking, LinearSendersFollowThePatchesOfTheirRow)
-{
-    // Nodes 0 to 4 are patches, which have no slopes. Row 0: three patches among two inner nodes; 1: empty; 2: one
-    // inner.
-    const std::vector<u32> rows{0, 5, 5, 6}, columns{1, 7, 2, 6, 4, 5};
-    const std::vector<float> factors{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f};
-    const std::vector<float> moments{9, 9, 0.02f, -0.03f, 9, 9, 0.04f, 0.05f, 9, 9, -0.06f, 0.07f};
-    const auto packed = packLinks({rows, columns, factors, moments, 5}, 4);
-    ASSERT_TRUE(packed.ok());
-    EXPECT_EQ(packed->order, (std::vector<u32>{0, 2, 1}));
-    EXPECT_EQ(packed->rows, (std::vector<u32>{0, 2, 4, 4, 5, 5, 5}));
-    ASSERT_EQ(packed->records.size(), 5u);
-    EXPECT_EQ(packed->records[0].column0, 1u);
-    EXPECT_EQ(packed->records[0].column1, 2u);
-    EXPECT_EQ(std::bit_cast<float>(packed->records[0].factor1), 0.3f);
-    EXPECT_EQ(packed->records[1].column0, 4u);
-    EXPECT_EQ(packed->records[1].factor1, 0u);
-    const auto expectLinear = [&](u32 record, u32 column, float factor, float x, float y) {
-        const auto link = std::bit_cast<gpu::LinearLinkRecord>(packed->records[record]);
-        EXPECT_EQ(link.column, column);
-        EXPECT_EQ(link.factor, factor);
-        EXPECT_EQ(link.momentX, x);
-        EXPECT_EQ(link.momentY, y);
-    };
-    expectLinear(2, 7, 0.2f, 0.02f, -0.03f);
-    expectLinear(3, 6, 0.4f, 0.04f, 0.05f);
-    expectLinear(4, 5, 0.6f, -0.06f, 0.07f);
-    EXPECT_EQ(packed->pages, (std::vector<LinkPage>{{0, 1, 0, 4}, {1, 2, 4, 1}}));
-}
 
 TEST(TreeLevels, OrdersByHeightAndWeighsByArea)
 {
@@ -123,7 +26,6 @@ TEST(TreeLevels, OrdersByHeightAndWeighsByArea)
     const auto tree = buildTreeLevels(view.nodes, view.children, 3);
     ASSERT_TRUE(tree.ok());
     EXPECT_EQ(tree->levels, (std::vector<TreeLevel>{{pair, 1}, {root, 1}}));
-    EXPECT_EQ(tree->parents, (std::vector<u32>{pair, pair, root, root, kNoIndex}));
     EXPECT_EQ(tree->childRows, (std::vector<u32>{0, 2, 4}));
     EXPECT_FLOAT_EQ(tree->children[1].weight, 0.75f);
     EXPECT_EQ(tree->children[3].node, pair);
@@ -137,11 +39,17 @@ TEST(TreeLevels, KeepsTheSlopesWithTheirChildren)
         {3, 0, 0, 1.0f}, {3, 0, 0, 1.0f}, {4, 0, 0, 1.0f}, {4, 2, 2, 2.0f}, {kNoIndex, 0, 2, 3.0f}};
     const std::vector<u32> children{2, 3, 1, 0};
     std::vector<gpu::ChildSlopeRecord> slopes(4, gpu::ChildSlopeRecord{});
-    for (u32 k = 0; k < 4; ++k) slopes[k].offsetX = float(children[k]);
+    for (u32 k = 0; k < 4; ++k) {
+        slopes[k].offsetX = float(children[k]);
+        slopes[k].yx = 10.0f * float(children[k]);
+    }
     const auto tree = buildTreeLevels(nodes, children, 3, slopes);
     ASSERT_TRUE(tree.ok());
-    ASSERT_EQ(tree->childSlopes.size(), 4u);
-    for (u32 k = 0; k < 4; ++k) EXPECT_EQ(tree->childSlopes[k].offsetX, float(tree->children[k].node));
+    ASSERT_EQ(tree->turns.size(), 4u);
+    for (u32 k = 0; k < 4; ++k) {
+        EXPECT_EQ(tree->children[k].offsetX, float(tree->children[k].node));
+        EXPECT_EQ(tree->turns[k].z, 10.0f * float(tree->children[k].node));
+    }
     EXPECT_EQ(tree->children[0].node, 1u);
 }
 

@@ -231,7 +231,7 @@ TEST(OutsideRadiance, TheGroundBeyondIsLitBySunAndSky)
     light.towardsSun = sunDirection(150, 30, 0);
     constexpr double kPi = 3.14159265358979;
     const auto near = [](float value, double expected) { EXPECT_NEAR(double(value), expected, 1e-6 * expected); };
-    std::vector<gpu::SkyRadianceRecord> radiance = outsideRadiance(patches, light);
+    std::vector<SkyRadiance> radiance = outsideRadiance(patches, light);
     ASSERT_EQ(radiance.size(), 2u);
     near(radiance[1].mean.w, 120.0 / kPi);
     patches.push_back({{0, 0, -1}, 6.2831853f, {0.1f, 0.2f, 0.3f, 0.4f}});

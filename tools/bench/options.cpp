@@ -11,10 +11,16 @@ namespace helio {
 Result<BenchOptions> parseCommandLine(int argc, char** argv, bool& done)
 {
     BenchOptions o;
-    CLI::App app{"Times the stages on a pack: median, minimum and spread over the repetitions, in milliseconds.\n"
-                 "Compare figures of one run only. Exit codes: 0 = ok, 1 = bad input or usage, 2 = device or internal.",
-                 "heliopolis-bench"};
-    app.add_option("PACK", o.pack, "pack folder, from heliopolis-bake")->required();
+    CLI::App app{
+        "Times the kernels on made-up data and, with a pack, the stages on it: median, minimum and spread over\n"
+        "the repetitions, in milliseconds, and ratios to naive variants, to the host and to rooflines.\n"
+        "Compare figures of one run only. Exit codes: 0 = ok, 1 = bad input or usage, 2 = device or internal.",
+        "heliopolis-bench"};
+    app.add_option("PACK", o.pack, "pack folder, from heliopolis-bake; none = the kernels alone");
+    app.add_option("--only", o.only, "run the cases whose names hold this text");
+    app.add_option("--compare", o.compare, "compare the medians of two files of --json; runs nothing")
+        ->expected(2)
+        ->type_name("A.json B.json");
     app.add_option("--json", o.json, "every repetition, as Google Benchmark's JSON");
     app.add_option("--repeats", o.repeats, "repetitions of each case")
         ->check(CLI::Range(1u, 1000u))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <string>
+#include <vector>
 
 #include "city/base/result.h"
 #include "city/base/types.h"
@@ -10,7 +11,8 @@ namespace helio {
 /// The command line of heliopolis-bench.
 struct BenchOptions
 {
-    std::string pack, json, device, camera = "aerial", size = "1280x720";
+    std::string pack, json, device, only, camera = "aerial", size = "1280x720";
+    std::vector<std::string> compare; ///< two files of --json, or none
     u32 width = 0, height = 0, repeats = 9, copyMiB = 64;
     double residual = 1e-3, sunTexel = 0.0;
 };

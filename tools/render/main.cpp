@@ -164,6 +164,7 @@ int runMain(int argc, char** argv)
     options.solve.residual = o.residual;
     options.solve.exactSweeps = o.sweeps;
     if (o.sunTexel > 0.0) options.sun.texel = o.sunTexel;
+    options.upload.exactLinks = o.exactLinks;
     const Result<std::unique_ptr<Renderer>> created = Renderer::create(context, *pack, options);
     if (!created) return complain(concat(o.pack, ": ", created.error().message), kBadInput);
     Renderer& renderer = **created;

@@ -24,6 +24,7 @@ struct RenderOptions
     u32 samples = 3;
     double exposureStops = 0.0;
     bool smooth = true;
+    bool exactLinks = false; ///< in full precision on the device
     std::string png, exr, table;
     std::string firstLight; ///< table of E_sun and E_sky in place of what the sun raster and the sky links give
     TableRows rows = TableRows::Patch;

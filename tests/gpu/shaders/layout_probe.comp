@@ -8,7 +8,6 @@
 #include "shaders/shared/solve.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Patches { PatchRecord patches[]; };
 layout(scalar, binding = 1) readonly buffer Nodes { NodeRecord nodes[]; };
 layout(scalar, binding = 2) readonly buffer NodeInfos { NodeInfoRecord nodeInfos[]; };
 layout(scalar, binding = 3) readonly buffer Vertices { VertexRecord vertices[]; };
@@ -16,8 +15,15 @@ layout(scalar, binding = 4) readonly buffer Instances { InstanceRecord instances
 layout(scalar, binding = 5) readonly buffer Draws { DrawRecord draws[]; };
 layout(scalar, binding = 6) readonly buffer SkyPatches { SkyPatchRecord skyPatches[]; };
 layout(scalar, binding = 7) writeonly buffer Sums { float sums[]; };
-layout(scalar, binding = 8) readonly buffer LinkPairs { LinkPairRecord linkPairs[]; };
-layout(scalar, binding = 9) readonly buffer LinearLinks { LinearLinkRecord linearLinks[]; };
+layout(scalar, binding = 8) readonly buffer Singles { LinkSingleRecord singles[]; };
+layout(scalar, binding = 9) readonly buffer Quads { LinkQuadRecord quads[]; };
+layout(scalar, binding = 10) readonly buffer Moments { MomentQuadRecord moments[]; };
+layout(scalar, binding = 11) readonly buffer Strips { StripRecord strips[]; };
+layout(scalar, binding = 12) readonly buffer Rows { RowRecord rows[]; };
+layout(scalar, binding = 13) readonly buffer Children { ChildRecord children[]; };
+layout(scalar, binding = 14) readonly buffer Patches { PatchRecord patches[]; };
+layout(scalar, binding = 15) readonly buffer Slopes { ChildSlopeRecord slopes[]; };
+layout(scalar, binding = 16) readonly buffer Residuals { ResidualRecord residuals[]; };
 layout(push_constant, scalar) uniform Params { uint count; };
 
 void main()
@@ -26,5 +32,6 @@ void main()
     if (i >= count) return;
     sums[i] = patches[i].area + nodes[i].area + nodeInfos[i].coverage + vertices[i].position.z +
               instances[i].worldFromLocal[2].w + float(draws[i].firstInstance) + skyPatches[i].solidAngle +
-              float(linkPairs[i].column1) + linearLinks[i].momentY;
+              singles[i].momentY + float(quads[i].link3 + moments[i].moments23 + strips[i].singleRecords + rows[i].parent) +
+              children[i].offsetY + slopes[i].yy + residuals[i].largest.w;
 }

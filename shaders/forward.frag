@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/records.h"
 #include "shaders/shared/view.h"
+#include "shaders/lib/fetch.glsl"
 #include "shaders/lib/view.glsl"
 
 const float kPi = 3.14159265358979;
@@ -14,11 +15,11 @@ layout(constant_id = 1) const bool kInterpolate = false;
 layout(constant_id = 2) const bool kEmitters = false;
 layout(push_constant, scalar) uniform Params { ForwardParams params; };
 layout(set = 0, binding = kForwardShadow) uniform sampler2DArray shadow;
-layout(set = 0, binding = kForwardEmission, scalar) readonly buffer Emission { vec4 emission[]; };
-layout(set = 0, binding = kForwardSun, scalar) readonly buffer Sun { vec4 sun[]; };
-layout(set = 0, binding = kForwardSky, scalar) readonly buffer Sky { vec4 sky[]; };
-layout(set = 0, binding = kForwardIndirect, scalar) readonly buffer Indirect { vec4 indirect[]; };
-layout(set = 0, binding = kForwardRadiosity, scalar) readonly buffer Radiosity { vec4 radiosity[]; };
+HELIO_READS_VEC4(emission, kForwardEmission)
+HELIO_READS_VEC4(sun, kForwardSun)
+HELIO_READS_VEC4(sky, kForwardSky)
+HELIO_READS_VEC4(indirect, kForwardIndirect)
+HELIO_READS_VEC4(radiosity, kForwardRadiosity)
 layout(location = 0) in vec3 vFromEye;
 layout(location = 1) in vec3 vNormal;
 layout(location = 2) in vec3 vAlbedo;
@@ -102,19 +103,21 @@ void main()
     } else if (kMode == kModeSunVisibility) {
         oRadiance = vec4(sunVisibility(cosine, across, along));
     } else if (kMode == kModeSun) {
-        oRadiance = sun[vPatch];
+        oRadiance = readVec4(sun, vPatch);
     } else if (kMode == kModeSky) {
-        oRadiance = sky[vPatch];
+        oRadiance = readVec4(sky, vPatch);
     } else if (kMode == kModeIndirect) {
-        oRadiance = indirect[vPatch];
+        oRadiance = readVec4(indirect, vPatch);
     } else if (kMode == kModeRadiosity) {
-        oRadiance = radiosity[vPatch];
+        oRadiance = readVec4(radiosity, vPatch);
+    } else if (kMode == kModeAlbedo) {
+        oRadiance = vec4(vAlbedo, 1.0);
     } else {
         const vec3 direct = view.sunLight.rgb * (max(cosine, 0.0) * sunVisibility(cosine, across, along));
-        const vec3 fromSky = kInterpolate ? vSky : sky[vPatch].rgb;
-        const vec3 bounced = kInterpolate ? vIndirect : indirect[vPatch].rgb;
+        const vec3 fromSky = kInterpolate ? vSky : readVec4(sky, vPatch).rgb;
+        const vec3 bounced = kInterpolate ? vIndirect : readVec4(indirect, vPatch).rgb;
         vec3 radiance = vAlbedo * (direct + fromSky * view.skyTint.rgb + bounced);
-        if (kEmitters) radiance += view.emissionScale * emission[vPatch].rgb;
+        if (kEmitters) radiance += view.emissionScale * readVec4(emission, vPatch).rgb;
         radiance /= kPi;
         // Distance turns to the horizon's colour.
         const float clear = exp(-length(vFromEye) * params.eye.w);

@@ -17,6 +17,7 @@ enum class ShaderStage : u32
 enum class BindingKind : u32
 {
     StorageBuffer,      // buffer { ... }
+    UniformBlock,       // uniform { ... }
     StorageTexelBuffer, // imageBuffer, uimageBuffer, iimageBuffer
     UniformTexelBuffer, // samplerBuffer, usamplerBuffer, isamplerBuffer
     SampledImage,       // sampler2D, sampler2DArray, sampler2DShadow, usampler2D, ...

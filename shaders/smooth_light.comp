@@ -6,12 +6,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shaders/shared/solve.h"
 #include "shaders/lib/dispatch.glsl"
+#include "shaders/lib/fetch.glsl"
 
 layout(local_size_x = kSolveGroup) in;
-layout(set = 0, binding = kSmoothRows, scalar) readonly buffer Rows { uint rows[]; };
-layout(set = 0, binding = kSmoothPatches, scalar) readonly buffer Patches { uint patches[]; };
-layout(set = 0, binding = kSmoothSky, scalar) readonly buffer Sky { vec4 sky[]; };
-layout(set = 0, binding = kSmoothIndirect, scalar) readonly buffer Indirect { vec4 indirect[]; };
+HELIO_READS_UINT(rows, kSmoothRows)
+HELIO_READS_UINT(patches, kSmoothPatches)
+HELIO_READS_VEC4(sky, kSmoothSky)
+HELIO_READS_VEC4(indirect, kSmoothIndirect)
 layout(set = 0, binding = kSmoothValues, scalar) writeonly buffer Values { vec4 values[]; };
 layout(push_constant, scalar) uniform Params { SmoothParams params; };
 
@@ -20,11 +21,13 @@ void main()
     const uint i = globalIndex(kSolveGroup);
     if (i >= params.cornerCount) return;
     vec4 skySum = vec4(0.0), indirectSum = vec4(0.0);
-    for (uint k = rows[i]; k < rows[i + 1u]; ++k) {
-        skySum += sky[patches[k]];
-        indirectSum += indirect[patches[k]];
+    const uint begin = readUint(rows, i), end = readUint(rows, i + 1u);
+    for (uint k = begin; k < end; ++k) {
+        const uint patch_ = readUint(patches, k);
+        skySum += readVec4(sky, patch_);
+        indirectSum += readVec4(indirect, patch_);
     }
-    const float share = 1.0 / float(max(rows[i + 1u] - rows[i], 1u));
+    const float share = 1.0 / float(max(end - begin, 1u));
     values[2u * i] = skySum * share;
     values[2u * i + 1u] = indirectSum * share;
 }

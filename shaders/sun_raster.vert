@@ -6,6 +6,7 @@
 #include "shaders/shared/sun.h"
 #include "shaders/lib/mesh.glsl"
 
+layout(constant_id = 0) const bool kGuard = true; // closed surfaces are drawn without their backs and need none
 layout(push_constant, scalar) uniform Params { SunRasterParams params; };
 layout(location = 0) flat out uint vPatch;
 invariant gl_Position;
@@ -15,5 +16,5 @@ void main()
     vPatch = patchOfVertex();
     gl_Position = params.clipFromWorld * vec4(worldPosition(), 1.0);
     // Along an edge that a lit and an unlit surface share, rounding must not let light in: the unlit one wins.
-    if (dot(worldNormal(), params.towardsSun.xyz) < 0.0) gl_Position.z -= params.towardsSun.w;
+    if (kGuard && dot(worldNormal(), params.towardsSun.xyz) < 0.0) gl_Position.z -= params.towardsSun.w;
 }

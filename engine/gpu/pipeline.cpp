@@ -26,6 +26,8 @@ VkShaderStageFlagBits stageBit(ShaderStage stage)
 VkDescriptorType descriptorType(BindingKind kind)
 {
     switch (kind) {
+    case BindingKind::UniformBlock:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BindingKind::StorageTexelBuffer:
         return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
     case BindingKind::UniformTexelBuffer:

@@ -132,7 +132,8 @@ VkDescriptorSet Recorder::allocateSet(VkDescriptorSetLayout layout)
     }
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 8},
-        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kSetsPerPool * 4},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSetsPerPool},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kSetsPerPool * 8},
         {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSetsPerPool * 8},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kSetsPerPool * 4},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kSetsPerPool * 4},
@@ -173,6 +174,7 @@ void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> bounds)
         write.dstBinding = wanted.binding;
         write.descriptorCount = 1;
         switch (wanted.kind) {
+        case BindingKind::UniformBlock:
         case BindingKind::StorageBuffer: {
             const Buffer& buffer = *found->buffer;
             const u64 bytes = found->bytes ? found->bytes : buffer.bytes() - found->offset;
@@ -181,7 +183,8 @@ void Recorder::bind(const Pipeline& pipeline, std::span<const Bound> bounds)
                         buffer.desc().name, "', which has ", buffer.bytes(), "; the device binds at most ",
                         context_.facts().maxStorageBufferBytes);
             buffers[i] = {buffer.handle(), found->offset, bytes};
-            write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+            write.descriptorType = wanted.kind == BindingKind::UniformBlock ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                                                            : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
             write.pBufferInfo = &buffers[i];
             break;
         }

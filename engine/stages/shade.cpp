@@ -6,8 +6,19 @@
 
 namespace helio {
 
+namespace {
+
+constexpr VkFormat kVectors = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+const ReadVariants kSmoothLight{shaders::kSmoothLightComp, shaders::kSmoothLightImagesComp,
+                                shaders::kSmoothLightStorageComp};
+const ReadVariants kForwardVert{shaders::kForwardVert, shaders::kForwardImagesVert, shaders::kForwardStorageVert};
+const ReadVariants kForwardFrag{shaders::kForwardFrag, shaders::kForwardImagesFrag, shaders::kForwardStorageFrag};
+
+} // namespace
+
 Ref<Buffer> addSmoothLight(FrameGraph& graph, const CornerTables& corners, Ref<Buffer> sky, Ref<Buffer> indirect,
-                           Ref<Buffer> values)
+                           Ref<Buffer> values, Reads reads)
 {
     return graph.addPass("smooth light", [&](PassBuilder& pass) {
         const auto rows = pass.read(pass.import(corners.rows), Use::ComputeRead);
@@ -16,10 +27,11 @@ Ref<Buffer> addSmoothLight(FrameGraph& graph, const CornerTables& corners, Ref<B
         const auto fromPatches = pass.read(indirect, Use::ComputeRead);
         const auto out = pass.write(values, Use::ComputeWrite);
         pass.record([=, count = corners.count](PassContext& ctx) {
-            ctx.dispatch(shaders::kSmoothLightComp,
-                         {storage(gpu::kSmoothRows, rows), storage(gpu::kSmoothPatches, patches),
-                          storage(gpu::kSmoothSky, fromSky), storage(gpu::kSmoothIndirect, fromPatches),
-                          storage(gpu::kSmoothValues, out)},
+            ctx.dispatch(kSmoothLight[reads],
+                         {texels(gpu::kSmoothRows, rows, VK_FORMAT_R32_UINT),
+                          texels(gpu::kSmoothPatches, patches, VK_FORMAT_R32_UINT),
+                          texels(gpu::kSmoothSky, fromSky, kVectors),
+                          texels(gpu::kSmoothIndirect, fromPatches, kVectors), storage(gpu::kSmoothValues, out)},
                          gpu::SmoothParams{count}, groupsFor(count, gpu::kSolveGroup));
         });
         return out;
@@ -42,8 +54,8 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
         const auto smooth = pass.read(in.smooth, Use::VertexRead);
         const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget),
                                pass.write(targets.depth, Use::DepthTarget)};
-        pass.record([=, params = in.params, mode = in.mode, interpolate = in.interpolate,
-                     emitters = in.emitters](PassContext& ctx) {
+        pass.record([=, params = in.params, mode = in.mode, interpolate = in.interpolate, emitters = in.emitters,
+                     reads = tile.reads](PassContext& ctx) {
             RenderTargets to;
             to.colors = {{out.radiance, VkClearColorValue{}, 0}};
             to.depth = {out.depth, 0.0f, 0};
@@ -51,18 +63,20 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
                 const auto drawPart = [&](bool smoothed, u32 first, u32 count) {
                     if (count == 0) return;
                     GraphicsPipelineDesc city;
-                    city.vertex = &shaders::kForwardVert;
-                    city.fragment = &shaders::kForwardFrag;
+                    city.vertex = &kForwardVert[reads];
+                    city.fragment = &kForwardFrag[reads];
                     city.depthCompare = VK_COMPARE_OP_GREATER;
                     city.constants = {{0, mode}, {1, smoothed}, {2, emitters}};
                     CityMesh::describe(city, true);
                     drawing.pipeline(std::move(city));
                     drawing.bind({storage(gpu::kForwardView, view),
                                   sampled(gpu::kForwardShadow, shadow, Sampler::Nearest, {0, 0, true}),
-                                  storage(gpu::kForwardEmission, emission), storage(gpu::kForwardSun, sun),
-                                  storage(gpu::kForwardSky, sky), storage(gpu::kForwardIndirect, indirect),
-                                  storage(gpu::kForwardRadiosity, radiosity), storage(gpu::kForwardCorners, corners),
-                                  storage(gpu::kForwardSmooth, smooth)});
+                                  texels(gpu::kForwardEmission, emission, kVectors),
+                                  texels(gpu::kForwardSun, sun, kVectors), texels(gpu::kForwardSky, sky, kVectors),
+                                  texels(gpu::kForwardIndirect, indirect, kVectors),
+                                  texels(gpu::kForwardRadiosity, radiosity, kVectors),
+                                  texels(gpu::kForwardCorners, corners, VK_FORMAT_R32_UINT),
+                                  texels(gpu::kForwardSmooth, smooth, kVectors)});
                     drawing.push(params);
                     mesh.draw(ctx, drawing, first, count);
                 };

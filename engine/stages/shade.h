@@ -18,7 +18,7 @@ struct CornerTables
 
 /// E_sky and E_indirect at the corners: two vec4 a corner, W/m2. sky: vec4 a patch; indirect: vec4 a node.
 [[nodiscard]] Ref<Buffer> addSmoothLight(FrameGraph& graph, const CornerTables& corners, Ref<Buffer> sky,
-                                         Ref<Buffer> indirect, Ref<Buffer> values);
+                                         Ref<Buffer> indirect, Ref<Buffer> values, Reads reads);
 
 /// What the forward pass reads. All W/m2; vec4 a patch (radiosity and indirect: a node, patches first).
 struct ShadeInputs

@@ -12,11 +12,11 @@ constexpr double kUnlitOffset = 0.001; // m
 
 } // namespace
 
-SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SunView& sun, u32 view,
+SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const SunLists& lists, const SunView& sun, u32 view,
                          SunPictures pictures)
 {
     return graph.addPass(concat("sun raster ", view), [&](PassBuilder& pass) {
-        const CityMesh mesh(pass, tile, list);
+        const CityMesh closed(pass, tile, lists.closed), open(pass, tile, lists.open);
         SunPictures out;
         out.ids = pass.write(pictures.ids, Use::ColorTarget);
         out.depth = pass.write(pictures.depth, view == 0 ? Use::DepthTarget : Use::DepthTargetLoad);
@@ -29,13 +29,20 @@ SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawLi
             targets.colors = {{out.ids, background, 0}};
             targets.depth = {out.depth, 1.0f, view};
             ctx.render(targets, [&](Drawing& drawing) {
-                GraphicsPipelineDesc desc;
-                desc.vertex = &shaders::kSunRasterVert;
-                desc.fragment = &shaders::kSunRasterFrag;
-                CityMesh::describe(desc, false);
-                drawing.pipeline(std::move(desc));
-                drawing.push(params);
-                mesh.draw(ctx, drawing, 0, mesh.count());
+                const auto drawPart = [&](const CityMesh& mesh, VkCullModeFlags cull) {
+                    if (mesh.count() == 0) return;
+                    GraphicsPipelineDesc desc;
+                    desc.vertex = &shaders::kSunRasterVert;
+                    desc.fragment = &shaders::kSunRasterFrag;
+                    desc.cull = cull;
+                    desc.constants = {{0, cull == VK_CULL_MODE_NONE}};
+                    CityMesh::describe(desc, false);
+                    drawing.pipeline(std::move(desc));
+                    drawing.push(params);
+                    mesh.draw(ctx, drawing, 0, mesh.count());
+                };
+                drawPart(open, VK_CULL_MODE_NONE);
+                drawPart(closed, VK_CULL_MODE_BACK_BIT);
             });
         });
         return out;

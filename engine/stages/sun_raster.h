@@ -17,9 +17,16 @@ struct SunPictures
     Ref<Image> depth; ///< D32 array
 };
 
-/// Stage 1, one view: draws everything from both sides, the nearest surface wins. The first view may find anything in
-/// the images; each view replaces the ids and its own layer of the depth.
-SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SunView& sun, u32 view,
+/// What one view of the sun draws.
+struct SunLists
+{
+    DrawList closed; ///< of closed surfaces: their fronts alone
+    DrawList open;   ///< from both sides
+};
+
+/// Stage 1, one view: the nearest surface wins. The first view may find anything in the images; each view replaces the
+/// ids and its own layer of the depth.
+SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const SunLists& lists, const SunView& sun, u32 view,
                          SunPictures pictures);
 
 } // namespace helio

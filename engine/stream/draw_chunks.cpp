@@ -5,7 +5,10 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
+
+#include "city/base/check.h"
 
 namespace helio {
 
@@ -65,30 +68,101 @@ bool mayShow(const Box& box, const glm::mat4& clipFromWorld)
     return std::none_of(beyond.begin(), beyond.end(), [](u32 count) { return count == 8; });
 }
 
+/// The corners of a draw's triangles.
+std::vector<glm::vec3> cornersOf(const TileView& tile, const gpu::DrawRecord& draw)
+{
+    std::vector<glm::vec3> positions;
+    for (const u32 index : tile.indices.subspan(draw.firstIndex, draw.indexCount))
+        positions.push_back(tile.vertices[index + draw.vertexOffset].position);
+    return positions;
+}
+
+/// A draw's triangles, to be sorted part by part.
+class FacingSorter
+{
+public:
+    FacingSorter(const TileView& tile, const gpu::DrawRecord& draw, std::vector<u32>& indices)
+        : draw_(draw), indices_(indices), corners_(cornersOf(tile, draw)), closed_(closedTriangles(corners_))
+    {
+    }
+    std::shared_ptr<const FacingMesh> sort(const gpu::DrawRecord& part) const
+    {
+        const u32 first = part.firstIndex - draw_.firstIndex;
+        return std::make_shared<const FacingMesh>(
+            sortByFacing(std::span(corners_).subspan(first, part.indexCount), closed_, first / 3,
+                         std::span(indices_).subspan(part.firstIndex, part.indexCount), part.firstIndex));
+    }
+
+private:
+    const gpu::DrawRecord& draw_;
+    std::vector<u32>& indices_;
+    std::vector<glm::vec3> corners_;
+    std::vector<bool> closed_;
+};
+
+/// Normals go by the cofactors of the transform: n . (M^-1 s) |M| > 0 is light from s on the outside of a local n.
+glm::mat3 normalFromSun(const gpu::InstanceRecord& instance)
+{
+    const glm::mat3 rows{glm::vec3(instance.worldFromLocal[0]), glm::vec3(instance.worldFromLocal[1]),
+                         glm::vec3(instance.worldFromLocal[2])};
+    const glm::mat3 world = glm::transpose(rows);
+    return glm::determinant(world) * glm::inverse(world);
+}
+
+bool isMirrored(const gpu::InstanceRecord& instance)
+{
+    const glm::mat3 rows{glm::vec3(instance.worldFromLocal[0]), glm::vec3(instance.worldFromLocal[1]),
+                         glm::vec3(instance.worldFromLocal[2])};
+    return !(glm::determinant(rows) > 0.0f);
+}
+
+void append(std::vector<gpu::DrawRecord>& draws, const gpu::DrawRecord& draw)
+{
+    if (draw.indexCount == 0) return;
+    if (draws.empty() || !continues(draws.back(), draw)) {
+        draws.push_back(draw);
+        return;
+    }
+    gpu::DrawRecord& last = draws.back();
+    if (last.firstInstance == draw.firstInstance)
+        last.indexCount += draw.indexCount;
+    else
+        last.instanceCount += draw.instanceCount;
+}
+
 } // namespace
 
-std::vector<DrawChunk> buildDrawChunks(const TileView& tile)
+std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& indices)
 {
+    HELIO_CHECK(indices.size() == tile.indices.size(), indices.size(), " indices");
     std::vector<DrawChunk> chunks;
     for (const gpu::DrawRecord& draw : tile.draws) {
         if (draw.indexCount == 0 || draw.instanceCount == 0) continue;
-        if (draw.instanceCount > 1) {
+        const FacingSorter sorter(tile, draw, indices);
+        if (!isStaticDraw(draw)) {
             const Box local = boundsOf(tile, draw);
+            const std::shared_ptr<const FacingMesh> facing = sorter.sort(draw);
             for (u32 first = 0; first < draw.instanceCount; first += kChunkInstances) {
-                DrawChunk chunk{draw, kEmpty};
+                DrawChunk chunk{draw, kEmpty, facing, {}};
                 chunk.draw.firstInstance = draw.firstInstance + first;
                 chunk.draw.instanceCount = std::min(kChunkInstances, draw.instanceCount - first);
-                for (u32 k = 0; k < chunk.draw.instanceCount; ++k)
-                    growPlaced(chunk.box, tile.instances[chunk.draw.firstInstance + k], local);
-                chunks.push_back(chunk);
+                for (u32 k = 0; k < chunk.draw.instanceCount; ++k) {
+                    const gpu::InstanceRecord& instance = tile.instances[chunk.draw.firstInstance + k];
+                    growPlaced(chunk.box, instance, local);
+                    chunk.normalFromSun.push_back(normalFromSun(instance));
+                    // What a mirror turns inside out is drawn whole, and so are its neighbours.
+                    if (isMirrored(instance)) chunk.facing = nullptr;
+                }
+                chunks.push_back(std::move(chunk));
             }
         } else {
             for (u32 first = 0; first < draw.indexCount; first += 3 * kChunkTriangles) {
-                DrawChunk chunk{draw, kEmpty};
+                DrawChunk chunk{draw, kEmpty, nullptr, {glm::mat3(1.0f)}};
                 chunk.draw.firstIndex = draw.firstIndex + first;
                 chunk.draw.indexCount = std::min(3 * kChunkTriangles, draw.indexCount - first);
                 growPlaced(chunk.box, tile.instances[draw.firstInstance], boundsOf(tile, chunk.draw));
-                chunks.push_back(chunk);
+                chunk.facing = sorter.sort(chunk.draw);
+                chunks.push_back(std::move(chunk));
             }
         }
     }
@@ -100,16 +174,35 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile)
 std::vector<gpu::DrawRecord> visibleDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld)
 {
     std::vector<gpu::DrawRecord> draws;
+    for (const DrawChunk& chunk : chunks)
+        if (mayShow(chunk.box, clipFromWorld)) append(draws, chunk.draw);
+    return draws;
+}
+
+SunDraws sunDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld, const glm::vec3& towardsSun)
+{
+    SunDraws draws;
+    std::vector<glm::vec3> suns;
     for (const DrawChunk& chunk : chunks) {
         if (!mayShow(chunk.box, clipFromWorld)) continue;
-        if (!draws.empty() && continues(draws.back(), chunk.draw)) {
-            gpu::DrawRecord& last = draws.back();
-            if (last.firstInstance == chunk.draw.firstInstance)
-                last.indexCount += chunk.draw.indexCount;
-            else
-                last.instanceCount += chunk.draw.instanceCount;
-        } else {
-            draws.push_back(chunk.draw);
+        if (!chunk.facing) {
+            append(draws.open, chunk.draw);
+            continue;
+        }
+        gpu::DrawRecord part = chunk.draw;
+        part.indexCount = chunk.facing->openCount;
+        append(draws.open, part);
+        suns.clear();
+        for (const glm::mat3& m : chunk.normalFromSun) suns.push_back(m * towardsSun);
+        for (const FacingRange& range : chunk.facing->ranges) {
+            const bool faces = std::any_of(suns.begin(), suns.end(), [&](const glm::vec3& sun) {
+                return std::any_of(range.normals.begin(), range.normals.end(),
+                                   [&](const glm::vec3& normal) { return glm::dot(normal, sun) > 0.0f; });
+            });
+            if (!faces) continue;
+            part.firstIndex = range.firstIndex;
+            part.indexCount = range.indexCount;
+            append(draws.closed, part);
         }
     }
     return draws;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,11 +17,27 @@ struct Box
     glm::vec3 lo{0.0f}, hi{0.0f}; ///< m, tile frame
 };
 
+/// Triangles of closed surfaces that face about the same way, side by side among the indices of a draw.
+struct FacingRange
+{
+    u32 firstIndex = 0, indexCount = 0;
+    std::vector<glm::vec3> normals; ///< unit, local, each once: outward
+};
+
+/// The triangles of a draw, sorted: those of open surfaces first, then closed ones by the way they face.
+struct FacingMesh
+{
+    u32 openCount = 0; ///< indices
+    std::vector<FacingRange> ranges;
+};
+
 /// A part of one draw that is worth culling by itself: some triangles of a mesh, or some instances of one.
 struct DrawChunk
 {
     gpu::DrawRecord draw{};
     Box box;
+    std::shared_ptr<const FacingMesh> facing; ///< of the draw's triangles
+    std::vector<glm::mat3> normalFromSun;     ///< an instance: light from s falls on a local normal n if n . (m s) > 0
 };
 
 /// Does this draw belong to the static mesh (instance 0), or to an asset?
@@ -32,11 +50,30 @@ inline constexpr u32 kChunkTriangles = 2048;
 inline constexpr u32 kChunkInstances = 32;
 
 /// Cuts the tile's draws into chunks with their bounds. The static mesh comes first; apart from that
-/// chunks keep the order of the draws.
-std::vector<DrawChunk> buildDrawChunks(const TileView& tile);
+/// chunks keep the order of the draws. indices: the tile's, reordered inside the chunks by facing.
+std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& indices);
+
+/// Which triangles belong to closed surfaces? positions: three corners each. A connected part (corners at the same
+/// place) is closed if every edge has as many triangles on its one side as on its other and it encloses a volume with
+/// its faces outwards. Only the back of a closed surface may be left out from a picture of what light meets first:
+/// before it there is always a front.
+std::vector<bool> closedTriangles(std::span<const glm::vec3> positions);
+
+/// Sorts some triangles of a draw by facing. positions: of their corners, in the order of `indices`, which lie from
+/// firstIndex on; closed: closedTriangles of the whole draw, of which they are those from firstTriangle on.
+FacingMesh sortByFacing(std::span<const glm::vec3> positions, const std::vector<bool>& closed, size_t firstTriangle,
+                        std::span<u32> indices, u32 firstIndex);
 
 /// The draws of the chunks that may show in a view: a chunk is left out when its box lies wholly beyond one of the
 /// planes -w <= x <= w, -w <= y <= w, 0 <= z <= w. Neighbouring chunks of one draw become one draw again.
 std::vector<gpu::DrawRecord> visibleDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld);
+
+/// The same for a picture from the sun, without what certainly shows the sun its back: draws of closed surfaces, of
+/// which the device may leave out back faces, and the rest.
+struct SunDraws
+{
+    std::vector<gpu::DrawRecord> closed, open;
+};
+SunDraws sunDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld, const glm::vec3& towardsSun);
 
 } // namespace helio

@@ -46,7 +46,7 @@ struct LinkDispatch
 
 /// Rows are sorted by length among so many neighbours: enough for strips of equal rows, few enough that what a strip
 /// reads and writes stays close together.
-inline constexpr u32 kRowBlock = 4096;
+inline constexpr u32 kRowBlock = 8192;
 
 /// Links as the gather reads them (shaders/shared/solve.h): strips of eight rows, four bytes a link to a patch or with
 /// constant senders, six a link to an inner node with linear ones, 16 for what the short form cannot hold. Rounding in

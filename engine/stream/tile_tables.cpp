@@ -153,10 +153,11 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile, const Uplo
     t.turns = makeBuffer(context, "child turns", tree->turns);
 
     t.vertices = makeBuffer(context, "vertices", tile.vertices);
-    t.indices = makeBuffer(context, "indices", tile.indices);
     t.instances = makeBuffer(context, "instances", tile.instances);
     t.staticVertexCount = countStaticVertices(tile);
-    t.chunks = buildDrawChunks(tile);
+    std::vector<u32> indices(tile.indices.begin(), tile.indices.end());
+    t.chunks = buildDrawChunks(tile, indices);
+    t.indices = makeBuffer(context, "indices", indices);
     return t;
 }
 

@@ -158,11 +158,12 @@ void LightSolver::solveSun(const LightState& light)
     FrameGraph graph("sun");
     SunPictures pictures{graph.import(*ids_), graph.import(*shadow_)};
     Ref<Buffer> counts = addFill(graph, graph.import(counts_), 0);
-    std::vector<DrawList> lists;
+    std::vector<SunLists> lists;
     lists.reserve(sunView_.viewCount());
     for (u32 view = 0; view < sunView_.viewCount(); ++view) {
-        lists.emplace_back(context_, raster ? visibleDraws(tile_.chunks, sunView_.clipFromWorld(view))
-                                            : std::vector<gpu::DrawRecord>{});
+        SunDraws draws;
+        if (raster) draws = sunDraws(tile_.chunks, sunView_.clipFromWorld(view), glm::vec3(light.towardsSun));
+        lists.push_back({DrawList(context_, std::move(draws.closed)), DrawList(context_, std::move(draws.open))});
         pictures = addSunRaster(graph, tile_, lists.back(), sunView_, view, pictures);
         counts =
             addHistogram(graph, pictures.ids, counts, sunView_.width, sunView_.height, tile_.patchCount, histogram_);

@@ -220,7 +220,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.indirect = graph.import(r.solver.indirect());
     in.radiosity = graph.import(r.solver.radiosity());
     in.cornerOfVertex = graph.import(smooth ? r.corners->ofVertex : r.nothing);
-    in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth))
+    in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth), r.tile.reads)
                        : graph.import(r.nothing);
     in.mode = options.mode;
     in.interpolate = smooth;

@@ -82,6 +82,8 @@ const char* stageName(ShaderStage stage)
 const char* kindName(BindingKind kind)
 {
     switch (kind) {
+    case BindingKind::UniformBlock:
+        return "UniformBlock";
     case BindingKind::StorageTexelBuffer:
         return "StorageTexelBuffer";
     case BindingKind::UniformTexelBuffer:

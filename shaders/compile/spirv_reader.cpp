@@ -210,7 +210,7 @@ Result<BindingKind> Reader::kindOf(u32 typeId, u32 storage) const
     if (found == types_.end()) return Error{"a descriptor of unknown type"};
     const Type& type = found->second;
     if (storage == kStorageBuffer && type.op == kOpTypeStruct) return BindingKind::StorageBuffer;
-    if (storage == kUniform) return Error{"a uniform block; use push constants or a storage buffer"};
+    if (storage == kUniform && type.op == kOpTypeStruct) return BindingKind::UniformBlock;
     if (type.op == kOpTypeSampledImage) {
         const Type& image = types_.at(type.operands[0]);
         return image.operands[1] == kDimBuffer ? BindingKind::UniformTexelBuffer : BindingKind::SampledImage;

@@ -1,2 +1,3 @@
 // SPDX-License-Identifier: Apache-2.0
-layout(set = 0, binding = kForwardView, scalar) readonly buffer View { ViewRecord view; };
+// A uniform block: software devices read a word of it once, and a word of a storage buffer lane by lane.
+layout(set = 0, binding = kForwardView, scalar) uniform View { ViewRecord view; };

@@ -15,6 +15,7 @@ HELIO_CONSTANT uint kModeSun = 4u;
 HELIO_CONSTANT uint kModeSky = 5u;
 HELIO_CONSTANT uint kModeIndirect = 6u;
 HELIO_CONSTANT uint kModeRadiosity = 7u;
+HELIO_CONSTANT uint kModeAlbedo = 8u;
 
 HELIO_CONSTANT uint kForwardView = 0u;     // ViewRecord
 HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array

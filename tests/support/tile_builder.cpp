@@ -44,28 +44,49 @@ u32 TileBuilder::quad(std::array<glm::vec3, 4> c, glm::vec4 rho, glm::vec4 emiss
     return id;
 }
 
+namespace {
+
+/// Sides of a box, outwards: -x, +x, -y, +y, -z, +z.
+std::array<std::array<glm::vec3, 4>, 6> sidesOf(glm::vec3 a, glm::vec3 b)
+{
+    return {{{{{a.x, b.y, a.z}, {a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}}},
+             {{{b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}}},
+             {{{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}}},
+             {{{b.x, b.y, a.z}, {a.x, b.y, a.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}}},
+             {{{a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}, {a.x, a.y, a.z}}},
+             {{{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}}}};
+}
+
+} // namespace
+
 u32 TileBuilder::box(glm::vec3 a, glm::vec3 b, glm::vec4 rho, glm::vec4 emission, bool inwards)
 {
-    const auto side = [&](std::array<glm::vec3, 4> c) {
-        return quad(inwards ? std::array{c[3], c[2], c[1], c[0]} : c, rho, emission);
-    };
-    const u32 first = side({{{a.x, b.y, a.z}, {a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}}});
-    side({{{b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z}}});
-    side({{{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}}});
-    side({{{b.x, b.y, a.z}, {a.x, b.y, a.z}, {a.x, b.y, b.z}, {b.x, b.y, b.z}}});
-    side({{{a.x, b.y, a.z}, {b.x, b.y, a.z}, {b.x, a.y, a.z}, {a.x, a.y, a.z}}});
-    side({{{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}});
+    const u32 first = u32(patches.size());
+    for (const auto& c : sidesOf(a, b)) quad(inwards ? std::array{c[3], c[2], c[1], c[0]} : c, rho, emission);
     return first;
 }
 
 void TileBuilder::asset(u32 patchId, std::array<glm::vec3, 4> corners, std::array<glm::vec4, 3> rows)
+{
+    assetQuad(patchId, corners);
+    assetSizes_.push_back(6);
+    instances_.push_back({{rows[0], rows[1], rows[2]}, patchId, 0, 0, 0});
+}
+
+void TileBuilder::assetBox(u32 patchId, glm::vec3 lo, glm::vec3 hi, std::array<glm::vec4, 3> rows)
+{
+    for (const auto& side : sidesOf(lo, hi)) assetQuad(patchId, side);
+    assetSizes_.push_back(36);
+    instances_.push_back({{rows[0], rows[1], rows[2]}, patchId, 0, 0, 0});
+}
+
+void TileBuilder::assetQuad(u32 patchId, const std::array<glm::vec3, 4>& corners)
 {
     const glm::vec3 normal = glm::normalize(glm::cross(corners[2] - corners[0], corners[3] - corners[1]));
     const u32 first = u32(assetVertices_.size());
     for (const glm::vec3 corner : corners)
         assetVertices_.push_back({corner, 0, packNormal(normal), packAlbedo(patches[patchId].rho)});
     for (const u32 k : {0u, 1u, 2u, 0u, 2u, 3u}) assetIndices_.push_back(first + k);
-    instances_.push_back({{rows[0], rows[1], rows[2]}, patchId, 0, 0, 0});
 }
 
 u32 TileBuilder::group(const std::vector<u32>& members, const std::vector<gpu::ChildSlopeRecord>& slopes)
@@ -144,8 +165,9 @@ TileView TileBuilder::view()
     allInstances_.insert(allInstances_.end(), instances_.begin(), instances_.end());
     draws_.clear();
     if (!indices_.empty()) draws_.push_back({u32(indices_.size()), 1, 0, 0, 0});
-    for (u32 k = 1; k < allInstances_.size(); ++k)
-        draws_.push_back({6, 1, u32(indices_.size()) + 6 * (k - 1), u32(vertices_.size()), k});
+    u32 firstIndex = u32(indices_.size());
+    for (u32 k = 1; k < allInstances_.size(); firstIndex += assetSizes_[k - 1], ++k)
+        draws_.push_back({assetSizes_[k - 1], 1, firstIndex, u32(vertices_.size()), k});
 
     TileView tile;
     tile.patches = patches;

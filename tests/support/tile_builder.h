@@ -24,6 +24,8 @@ public:
     u32 box(glm::vec3 lo, glm::vec3 hi, glm::vec4 rho, glm::vec4 emission = glm::vec4(0.0f), bool inwards = false);
     /// Draws one more quad of local corners with an instance's transform, as an asset of a patch.
     void asset(u32 patchId, std::array<glm::vec3, 4> corners, std::array<glm::vec4, 3> worldFromLocal);
+    /// Draws the six sides of a box, outwards, as one asset.
+    void assetBox(u32 patchId, glm::vec3 lo, glm::vec3 hi, std::array<glm::vec4, 3> worldFromLocal);
     /// An inner node; all patches must exist. Children are ids of patches and earlier groups. slopes: what each child
     /// adds to the node's slopes; none = nothing.
     u32 group(const std::vector<u32>& children, const std::vector<gpu::ChildSlopeRecord>& slopes = {});
@@ -40,12 +42,14 @@ public:
     bool linear = false; ///< the view has the links' moments and the children's slopes
 
 private:
+    void assetQuad(u32 patchId, const std::array<glm::vec3, 4>& corners);
     void triangles(const std::array<glm::vec3, 4>& corners, glm::vec3 normal, glm::vec4 rho, u32 patchId);
 
     std::vector<u32> children_;
     std::vector<gpu::VertexRecord> vertices_, assetVertices_;
     std::vector<u32> indices_, assetIndices_;
     std::vector<gpu::InstanceRecord> instances_, allInstances_;
+    std::vector<u32> assetSizes_; // indices, an instance
     struct Link
     {
         u32 column;

@@ -86,14 +86,15 @@ TEST(DrawChunks, CoverEveryTriangleOnceInsideTheirBoxes)
 {
     TileBuilder b = makeStreet();
     const TileView view = b.view();
-    const std::vector<DrawChunk> chunks = buildDrawChunks(view);
+    std::vector<u32> indices(view.indices.begin(), view.indices.end());
+    const std::vector<DrawChunk> chunks = buildDrawChunks(view, indices);
     std::set<std::pair<u32, u32>> seen; // index, instance
     for (const DrawChunk& chunk : chunks)
         for (u32 i = 0; i < chunk.draw.instanceCount; ++i)
             for (u32 k = 0; k < chunk.draw.indexCount; ++k) {
                 const u32 instance = chunk.draw.firstInstance + i, index = chunk.draw.firstIndex + k;
                 EXPECT_TRUE(seen.insert({index, instance}).second);
-                const glm::vec4 p(view.vertices[view.indices[index] + chunk.draw.vertexOffset].position, 1.0f);
+                const glm::vec4 p(view.vertices[indices[index] + chunk.draw.vertexOffset].position, 1.0f);
                 for (int c = 0; c < 3; ++c) {
                     const float x = glm::dot(view.instances[instance].worldFromLocal[c], p);
                     EXPECT_GE(x, chunk.box.lo[c] - 1e-3f);
@@ -107,7 +108,9 @@ TEST(DrawChunks, CoverEveryTriangleOnceInsideTheirBoxes)
 TEST(DrawChunks, CullWhatLiesBeyondAPlane)
 {
     TileBuilder b = makeStreet();
-    const std::vector<DrawChunk> chunks = buildDrawChunks(b.view());
+    const TileView view = b.view();
+    std::vector<u32> indices(view.indices.begin(), view.indices.end());
+    const std::vector<DrawChunk> chunks = buildDrawChunks(view, indices);
     glm::mat4 all(0.0f), far(0.0f); // orthographic: x in [0, 8000], and x in [6500, 8500]
     for (glm::mat4* m : {&all, &far}) {
         (*m)[1][1] = (*m)[2][2] = 0.01f;

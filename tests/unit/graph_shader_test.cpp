@@ -103,19 +103,23 @@ layout(binding = 0) uniform usamplerBuffer t;
 layout(binding = 1) uniform textureBuffer u;
 layout(binding = 2, r32ui) uniform uimage2D i;
 layout(binding = 3) uniform sampler2DArrayShadow s;
+layout(binding = 5, r32ui) uniform readonly uimageBuffer w;
+layout(binding = 6) uniform U { uint x; };
 layout(push_constant) uniform P { vec4 a; mat4 m; float c[3]; };
 void main()
 {
     b[0] = texelFetch(t, 0).x + uint(texelFetch(u, 0).x) + imageLoad(i, ivec2(0)).x;
-    b[1] = uint(texture(s, vec4(0)) + a.x + m[0][0] + c[2]);
+    b[1] = uint(texture(s, vec4(0)) + a.x + m[0][0] + c[2]) + imageLoad(w, 0).x + x;
 })");
     ASSERT_TRUE(compiled) << compiled.error().message;
     const auto module = readSpirv(compiled->words);
     ASSERT_TRUE(module) << module.error().message;
     const BindingKind kinds[] = {BindingKind::UniformTexelBuffer, BindingKind::UniformTexelBuffer,
-                                 BindingKind::StorageImage, BindingKind::SampledImage, BindingKind::StorageBuffer};
-    ASSERT_EQ(module->bindings.size(), 5u);
-    for (u32 i = 0; i < 5; ++i) {
+                                 BindingKind::StorageImage,       BindingKind::SampledImage,
+                                 BindingKind::StorageBuffer,      BindingKind::StorageTexelBuffer,
+                                 BindingKind::UniformBlock};
+    ASSERT_EQ(module->bindings.size(), 7u);
+    for (u32 i = 0; i < 7; ++i) {
         EXPECT_EQ(module->bindings[i].binding, i);
         EXPECT_EQ(module->bindings[i].kind, kinds[i]) << i;
     }
@@ -125,7 +129,6 @@ void main()
 TEST_F(ShaderCompile, WhatPipelinesDoNotServeIsRefused)
 {
     const std::pair<const char*, const char*> cases[] = {
-        {"layout(binding = 0) uniform U { uint x; };\nvoid main() { uint y = x; }", "uniform block"},
         {"layout(set = 1, binding = 0) buffer B { uint x; };\nvoid main() { x = 1; }", "descriptor set 0"},
         {"layout(binding = 0) buffer A { uint x; };\nlayout(binding = 0) buffer B { uint y; };\nvoid main() { x = y; }",
          "two resources have binding 0"},

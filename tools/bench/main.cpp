@@ -12,6 +12,7 @@
 #include "tools/bench/gather_cases.h"
 #include "tools/bench/histogram_cases.h"
 #include "tools/bench/options.h"
+#include "tools/bench/raster_cases.h"
 #include "tools/bench/report.h"
 #include "tools/bench/scene_cases.h"
 #include "tools/support/complain.h"
@@ -98,6 +99,7 @@ int runMain(int argc, char** argv)
     else {
         addHistogramCases(cases);
         addGatherCases(cases);
+        addRasterCases(cases);
     }
     Report report(cases.ratios());
     benchmark::RunSpecifiedBenchmarks(&report);

@@ -15,7 +15,8 @@ namespace {
 const std::map<std::string, u32> kModes{{"final", gpu::kModeFinal},        {"id", gpu::kModeId},
                                         {"depth", gpu::kModeDepth},        {"sun-visibility", gpu::kModeSunVisibility},
                                         {"esun", gpu::kModeSun},           {"esky", gpu::kModeSky},
-                                        {"eindirect", gpu::kModeIndirect}, {"radiosity", gpu::kModeRadiosity}};
+                                        {"eindirect", gpu::kModeIndirect}, {"radiosity", gpu::kModeRadiosity},
+                                        {"albedo", gpu::kModeAlbedo}};
 constexpr u32 kMaxSize = 16384;
 
 std::string checkSize(const std::string& text, u32& width, u32& height)
@@ -113,7 +114,7 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     app.add_option("--per", per, "row of the table: patch, or face of the OBJ")
         ->check(CLI::IsMember({"patch", "face"}))
         ->capture_default_str();
-    app.add_option("--view", view, "final, id, depth, sun-visibility, esun, esky, eindirect or radiosity")
+    app.add_option("--view", view, "final, id, depth, sun-visibility, esun, esky, eindirect, radiosity or albedo")
         ->check(CLI::IsMember(kModes))
         ->capture_default_str();
     app.add_option("--device", o.device,

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the sun raster may leave out: backs of closed surfaces, and nothing else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <set>
+
+#include "engine/stream/draw_chunks.h"
+#include "tests/support/tile_builder.h"
+
+namespace helio {
+
+namespace {
+
+const glm::vec4 kGrey(0.5f);
+
+/// An orthographic view that holds everything.
+glm::mat4 wideView()
+{
+    glm::mat4 m(1e-6f);
+    m[2][2] = 1e-9f;
+    m[3] = glm::vec4(0.0f, 0.0f, 0.5f, 1.0f);
+    return m;
+}
+
+/// Triangles, as the sets of their vertices, of a list of draws.
+std::multiset<std::set<u32>> trianglesOf(const std::vector<gpu::DrawRecord>& draws, const std::vector<u32>& indices)
+{
+    std::multiset<std::set<u32>> out;
+    for (const gpu::DrawRecord& draw : draws)
+        for (u32 k = 0; k < draw.indexCount; k += 3) {
+            const u32* const at = indices.data() + draw.firstIndex + k;
+            for (u32 i = 0; i < draw.instanceCount; ++i)
+                out.insert({at[0] + draw.vertexOffset, at[1] + draw.vertexOffset, at[2] + draw.vertexOffset});
+        }
+    return out;
+}
+
+struct Scene
+{
+    explicit Scene(TileBuilder& b) : view(b.view()), indices(view.indices.begin(), view.indices.end())
+    {
+        chunks = buildDrawChunks(view, indices);
+    }
+    SunDraws draws(glm::vec3 sun) const { return sunDraws(chunks, wideView(), glm::normalize(sun)); }
+    static u64 count(const std::vector<gpu::DrawRecord>& draws)
+    {
+        u64 all = 0;
+        for (const gpu::DrawRecord& draw : draws) all += u64(draw.indexCount) / 3 * draw.instanceCount;
+        return all;
+    }
+
+    TileView view;
+    std::vector<u32> indices;
+    std::vector<DrawChunk> chunks;
+};
+
+TEST(Facing, ReorderingKeepsEveryTriangle)
+{
+    TileBuilder b;
+    for (int i = 0; i < 900; ++i) b.box({3.0f * float(i), 0, 0}, {3.0f * float(i) + 1.0f, 1, 1}, kGrey);
+    b.quad({{{0, 5, 0}, {1, 5, 0}, {1, 6, 0}, {0, 6, 0}}}, kGrey);
+    const Scene scene(b);
+    const std::vector<u32> before(scene.view.indices.begin(), scene.view.indices.end());
+    const std::vector<gpu::DrawRecord> all(scene.view.draws.begin(), scene.view.draws.end());
+    EXPECT_EQ(trianglesOf(all, scene.indices), trianglesOf(all, before));
+}
+
+TEST(Facing, OfAClosedBoxTheSidesInTheSunRemain)
+{
+    TileBuilder b;
+    b.box({0, 0, 0}, {1, 1, 1}, kGrey);
+    const Scene scene(b);
+    EXPECT_EQ(Scene::count(scene.draws({1, 2, 3}).closed), 6u) << "three sides of two triangles";
+    EXPECT_EQ(Scene::count(scene.draws({0.001f, 0.002f, 1}).closed), 6u);
+    EXPECT_EQ(Scene::count(scene.draws({0, 0, 1}).closed), 2u) << "on edge is no light";
+    EXPECT_TRUE(scene.draws({1, 2, 3}).open.empty());
+    // Which sides: those whose normal faces the sun.
+    for (const gpu::DrawRecord& draw : scene.draws({1, 2, 3}).closed)
+        for (u32 k = 0; k < draw.indexCount; k += 3) {
+            const auto at = [&](u32 j) { return scene.view.vertices[scene.indices[draw.firstIndex + k + j]].position; };
+            EXPECT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), glm::vec3(1, 2, 3)), 0.0f);
+        }
+}
+
+TEST(Facing, WhatIsOpenIsNeverLeftOut)
+{
+    TileBuilder b;
+    b.box({0, 0, 0}, {1, 1, 1}, kGrey);                            // closed
+    b.quad({{{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}}}, kGrey); // a plate
+    b.box({8, 0, 0}, {9, 1, 1}, kGrey, glm::vec4(0.0f), true);     // a room: faces inwards
+    for (int k = 0; k < 5; ++k) {                                  // a box without its lid
+        const std::array<glm::vec3, 8> c{
+            {{20, 0, 0}, {21, 0, 0}, {21, 1, 0}, {20, 1, 0}, {20, 0, 1}, {21, 0, 1}, {21, 1, 1}, {20, 1, 1}}};
+        const u32 sides[5][4] = {{3, 2, 1, 0}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+        b.quad({{c[sides[k][0]], c[sides[k][1]], c[sides[k][2]], c[sides[k][3]]}}, kGrey);
+    }
+    const Scene scene(b);
+    for (const glm::vec3 sun : {glm::vec3(1, 2, 3), glm::vec3(-3, 1, 0.2f), glm::vec3(0, 0, 1)}) {
+        const SunDraws draws = scene.draws(sun);
+        EXPECT_EQ(Scene::count(draws.open), 2u + 12u + 10u);
+        EXPECT_LE(Scene::count(draws.closed), 6u);
+    }
+}
+
+TEST(Facing, GoesByTheTurnOfEachInstance)
+{
+    // An asset that is a closed box, as six quads of one draw.
+    TileBuilder b;
+    b.assetBox(b.patch({0, 0, 1}, 1.0f, kGrey), {0, 0, 0}, {1, 1, 1},
+               {{glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0)}});
+    const float s = std::sqrt(0.5f);
+    TileBuilder turned;
+    turned.assetBox(turned.patch({0, 0, 1}, 1.0f, kGrey), {0, 0, 0}, {1, 1, 1},
+                    {{glm::vec4(s, -s, 0, 0), glm::vec4(s, s, 0, 0), glm::vec4(0, 0, 1, 0)}});
+    TileBuilder mirrored;
+    mirrored.assetBox(mirrored.patch({0, 0, 1}, 1.0f, kGrey), {0, 0, 0}, {1, 1, 1},
+                      {{glm::vec4(-1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0)}});
+    // A sun from +x +y +z lights three sides of a box; one from +y lights two walls of a box turned by 45 degrees.
+    EXPECT_EQ(Scene::count(Scene(b).draws({1, 1, 1}).closed), 6u);
+    EXPECT_EQ(Scene::count(Scene(turned).draws({0, 1, 1}).closed), 6u);
+    EXPECT_EQ(Scene::count(Scene(turned).draws({0, 0, 1}).closed), 2u);
+    EXPECT_EQ(Scene::count(Scene(mirrored).draws({1, 1, 1}).open), 12u) << "a mirror turns it inside out";
+}
+
+} // namespace
+
+} // namespace helio

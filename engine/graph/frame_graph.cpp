@@ -277,29 +277,4 @@ const Image& FrameGraph::image(Ref<Image> ref) const
     return *resource.texture;
 }
 
-std::string FrameGraph::dump() const
-{
-    std::string out = concat("digraph \"", impl_->name, "\" {\n  rankdir=LR;\n");
-    const std::vector<bool> live = impl_->livePasses();
-    for (u32 i = 0; i < impl_->passes.size(); ++i) {
-        const Impl::Pass& pass = impl_->passes[i];
-        out += concat("  p", i, " [shape=box, label=\"", pass.name, "\"", live[i] ? "" : ", style=dashed", "];\n");
-        for (const Impl::Declared& use : pass.uses) {
-            const std::string node = concat("r", use.resource, "v", use.version);
-            const char* label = useInfo(use.use).name;
-            out += use.write ? concat("  p", i, " -> ", node, " [label=\"", label, "\"];\n")
-                             : concat("  ", node, " -> p", i, " [label=\"", label, "\"];\n");
-        }
-    }
-    for (u32 i = 0; i < impl_->resources.size(); ++i) {
-        const Impl::Resource& resource = impl_->resources[i];
-        for (u32 version = 0; version <= resource.newestVersion(); ++version) {
-            out += concat("  r", i, "v", version, " [label=\"", resource.name, " ", version,
-                          resource.imported ? " (imported)" : "", "\"];\n");
-            if (version > 0) out += concat("  r", i, "v", version - 1, " -> r", i, "v", version, " [style=dotted];\n");
-        }
-    }
-    return out + "}\n";
-}
-
 } // namespace helio

@@ -126,7 +126,8 @@ public:
     const Buffer& buffer(Ref<Buffer> ref) const;
     const Image& image(Ref<Image> ref) const;
 
-    /// Graph in DOT: passes (dashed if culled), resource versions, uses. For bug reports.
+    /// Graph in DOT: passes (dashed if culled) with, once compiled, what they wait for; resource versions with their
+    /// sizes; uses. For --dump-graph and bug reports.
     std::string dump() const;
 
 private:

@@ -82,6 +82,7 @@ void LightSolver::execute(FrameGraph& graph, bool timed)
 {
     const Status compiled = graph.compile(context_);
     HELIO_CHECK(compiled.ok(), compiled.ok() ? "" : compiled.error().message, "\n", graph.dump());
+    if (options_.onGraph) options_.onGraph(graph.dump());
     recorder_.begin();
     graph.execute(recorder_, timed);
     recorder_.submitAndWait();

@@ -250,6 +250,7 @@ Picture Renderer::render(const Camera& camera, u32 width, u32 height, const View
     (void)addFrame(graph, camera, width, height, options);
     const Status compiled = graph.compile(r.context);
     HELIO_CHECK(compiled.ok(), compiled.ok() ? "" : compiled.error().message, "\n", graph.dump());
+    if (const auto& tell = r.solver.options().onGraph) tell(graph.dump());
     r.recorder.begin();
     graph.execute(r.recorder, true);
     r.recorder.submitAndWait();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <glm/vec4.hpp>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,8 @@ struct RendererOptions
     SolveOptions solve;
     std::optional<HistogramVariant> histogram; ///< none: the one that is faster on the device
     UploadOptions upload;
+    /// Called with every graph that runs, in DOT (FrameGraph::dump), if it is given.
+    std::function<void(const std::string& dot)> onGraph;
 };
 
 struct SolveReport

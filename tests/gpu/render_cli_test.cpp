@@ -441,6 +441,67 @@ TEST_F(RenderCli, FirstLightOfATableStandsInPlaceOfTheRaster)
     expectRefusal("p --first-light a.csv", "nothing to do");
 }
 
+TEST_F(RenderCli, CameraPath)
+{
+    put("path.txt", "0 6,-6,4,0,0,1\n1 6,6,4,0,0,1,60\n");
+    const std::string quick = "p --size 64x36 --samples 1 --sun-texel 0.25 ";
+    const RunResult run = render(quick + "--path path.txt --frames 3 -o a.png --validate");
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    for (const char* name : {"a-0000.png", "a-0001.png", "a-0002.png"})
+        EXPECT_GT(bytesOf(name).size(), 100u) << name;
+    EXPECT_NE(bytesOf("a-0000.png"), bytesOf("a-0002.png"));
+    EXPECT_FALSE(std::filesystem::exists(temp_ / "a.png"));
+    // The first key, by itself.
+    ASSERT_EQ(render(quick + "--camera 6,-6,4,0,0,1 -o b.png").exitCode, 0);
+    EXPECT_EQ(bytesOf("a-0000.png"), bytesOf("b.png"));
+    ASSERT_EQ(render(quick + "--path path.txt --frames 3 -o sheet.png --sheet").exitCode, 0);
+    const Result<TestImage> sheet = readTestImage(temp_ / "sheet.png");
+    ASSERT_TRUE(sheet.ok());
+    EXPECT_EQ(sheet->width, 128u);
+    EXPECT_EQ(sheet->height, 72u);
+
+    expectRefusal(quick + "--path path.txt -o a.png", "--frames");
+    expectRefusal(quick + "--path none.txt --frames 2 -o a.png", "none.txt");
+    put("bad.txt", "0 6,-6,4,0,0,1\n0 6,6,4,0,0,1\n");
+    expectRefusal(quick + "--path bad.txt --frames 2 -o c.png", "bad.txt: line 2");
+    expectRefusal(quick + "--sheet -o a.png", "--sheet");
+
+    ASSERT_EQ(render(quick + "-o a.png --dump-graph g.dot").exitCode, 0);
+    const std::string dot = bytesOf("g.dot");
+    for (const char* word : {"digraph \"sun\"", "digraph \"sweep\"", "digraph \"frame\"", "wait: ", "compute to",
+                             "KiB", "forward"})
+        EXPECT_NE(dot.find(word), std::string::npos) << word;
+}
+
+TEST_F(RenderCli, Day)
+{
+    const std::string scene = HELIO_SCENES "/twobox";
+    ASSERT_EQ(test::runProgram(HELIO_BAKE,
+                               concat(scene, ".obj --surfaces ", scene, ".csv --rays 16 --lat 50 --lon 14 -o here"),
+                               temp_.path())
+                  .exitCode,
+              0);
+    const std::string quick = "here --size 64x36 --samples 1 --sun-texel 0.25 --turbidity 3 ";
+    const RunResult run = render(quick + "--day 2026-12-21 --every 120m --lag -o d.png");
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    // In the winter of Prague the sun is up from 7 to 15 UTC.
+    for (const char* time : {"08:00", "10:00", "12:00", "14:00"}) {
+        const size_t line = run.out.find(concat(time, ": sun azimuth"));
+        ASSERT_NE(line, std::string::npos) << run.out;
+        const double lag = std::stod(run.out.substr(run.out.find(", lag ", line) + 6));
+        EXPECT_LE(lag, 0.5) << "percent, of E_indirect";
+    }
+    EXPECT_EQ(run.out.find("06:00"), std::string::npos);
+    EXPECT_EQ(run.out.find("16:00"), std::string::npos);
+    EXPECT_GT(bytesOf("d-1200.png").size(), 100u);
+    EXPECT_FALSE(std::filesystem::exists(temp_ / "d.png"));
+
+    expectRefusal(quick + "--day 2026-13-01 -o d.png", "--day");
+    expectRefusal(quick + "--day 2026-12-21 --every 10 -o d.png", "--every");
+    expectRefusal(quick + "--day 2026-12-21 --table t.csv", "--day");
+    expectRefusal("here --turbidity 3 -o d.png", "--date or --day");
+}
+
 TEST_F(RenderCli, BenchReports)
 {
     const RunResult result = test::runProgram(

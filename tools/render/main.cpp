@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <set>
 
 #include "city/base/file.h"
 #include "engine/view/energy_audit.h"
@@ -10,6 +11,7 @@
 #include "engine/view/renderer.h"
 #include "tools/render/first_light.h"
 #include "tools/render/options.h"
+#include "tools/render/sequence.h"
 #include "tools/render/table.h"
 #include "tools/support/complain.h"
 
@@ -111,6 +113,16 @@ Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptio
     return Nothing{};
 }
 
+/// The exit code: what the validation layer said is a failure.
+int reportValidation(Context& context, const RenderOptions& o)
+{
+    if (!o.validate) return kOk;
+    for (const std::string& message : context.messages().all()) complain(message, kInternal);
+    if (context.messages().count() > 0) return kInternal;
+    std::printf("No validation messages\n");
+    return kOk;
+}
+
 int runMain(int argc, char** argv)
 {
     bool done = false;
@@ -118,7 +130,7 @@ int runMain(int argc, char** argv)
     if (!parsed) return complain(parsed.error().message, kBadInput);
     if (done) return kOk;
     const RenderOptions& o = *parsed;
-    for (const std::string& output : {o.png, o.exr, o.table})
+    for (const std::string& output : {o.png, o.exr, o.table, o.dumpGraph})
         if (const Status free = output.empty() ? Nothing{} : checkFileTarget(output); !free)
             return complain(free.error().message, kBadInput);
     std::signal(SIGXFSZ, SIG_IGN); // A file that grows too large is a failed write, reported as such.
@@ -140,6 +152,15 @@ int runMain(int argc, char** argv)
     if (!light) return complain(concat(o.pack, ": ", light.error().message), kBadInput);
     const Result<Camera> camera = parseCamera(o.camera, *pack);
     if (!camera) return complain(camera.error().message, kBadInput);
+
+    std::vector<PathKey> path;
+    if (!o.path.empty()) {
+        const Result<std::string> text = readTextFile(o.path);
+        if (!text) return complain(text.error().message, kBadInput);
+        Result<std::vector<PathKey>> keys = parseCameraPath(*text);
+        if (!keys) return complain(concat(o.path, ": ", keys.error().message), kBadInput);
+        path = std::move(*keys);
+    }
 
     ContextOptions contextOptions;
     contextOptions.validation = o.validate;
@@ -165,13 +186,21 @@ int runMain(int argc, char** argv)
     options.solve.exactSweeps = o.sweeps;
     if (o.sunTexel > 0.0) options.sun.texel = o.sunTexel;
     options.upload.exactLinks = o.exactLinks;
+    std::set<std::string> graphs;
+    if (!o.dumpGraph.empty()) options.onGraph = [&](const std::string& dot) { graphs.insert(dot); };
     const Result<std::unique_ptr<Renderer>> created = Renderer::create(context, *pack, options);
     if (!created) return complain(concat(o.pack, ": ", created.error().message), kBadInput);
     Renderer& renderer = **created;
     steps.done("upload");
 
     if (!renderer.note().empty()) std::printf("Note: %s\n", renderer.note().c_str());
-    std::printf("Light: %s\n", given ? o.firstLight.c_str() : light->description.c_str());
+    if (o.day.empty()) std::printf("Light: %s\n", given ? o.firstLight.c_str() : light->description.c_str());
+    if (!o.day.empty()) {
+        const Status drawn = renderDay(renderer, context, *pack, *camera, o);
+        if (!drawn) return complain(drawn.error().message, kBadInput);
+        steps.done("day");
+        return reportValidation(context, o);
+    }
     renderer.setFirstLight(given);
     renderer.setSun(light->azimuthDeg, light->elevationDeg, light->dni);
     renderer.setSky(light->dhi, light->skyRadiance);
@@ -181,7 +210,9 @@ int runMain(int argc, char** argv)
     printSolve(o, report);
     const LightTables tables = renderer.readTables();
     printAudit(auditEnergy(pack->tile(), tables, o.emission));
-    if (const Status written = writePictures(renderer, *camera, o); !written)
+    if (const Status written =
+            o.path.empty() ? writePictures(renderer, *camera, o) : renderPath(renderer, path, o);
+        !written)
         return complain(written.error().message, kBadInput);
     if (!o.table.empty()) {
         const Result<std::string> text = tableText(*pack, tables, o.rows, describeLight(o, *light, report));
@@ -190,12 +221,13 @@ int runMain(int argc, char** argv)
             return complain(written.error().message, kBadInput);
     }
     steps.done("pictures and table");
-    if (o.validate) {
-        for (const std::string& message : context.messages().all()) complain(message, kInternal);
-        if (context.messages().count() > 0) return kInternal;
-        std::printf("No validation messages\n");
+    if (!o.dumpGraph.empty()) {
+        std::string text;
+        for (const std::string& graph : graphs) text += graph;
+        if (const Status written = writeTextAtomically(o.dumpGraph, text); !written)
+            return complain(written.error().message, kBadInput);
     }
-    return kOk;
+    return reportValidation(context, o);
 }
 
 } // namespace

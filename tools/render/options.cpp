@@ -59,7 +59,6 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     date->needs(time);
     app.add_option("--utc-offset", light.utcOffset, "hours that the clock of --time is ahead of UTC")
         ->check(numberIn(-15.0, 15.0))
-        ->needs(date)
         ->capture_default_str();
     auto* dni = app.add_option("--dni", light.dni, "direct normal irradiance of the sun, W/m2")
                     ->check(numberIn(0.0, 1e6))
@@ -72,7 +71,6 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     app.add_option("--turbidity", light.turbidity,
                    "Linke turbidity, 1 to 10: --dni and --dhi of a cloudless sky at --date (2-3 clean, 4-6 hazy air)")
         ->check(numberIn(1.0, 10.0))
-        ->needs(date)
         ->excludes(dni)
         ->excludes(dhi);
     app.add_flag("--no-emission", noEmission, "switch off what patches emit themselves");
@@ -102,6 +100,20 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         "keep links in full precision on the device, 16 bytes each: what their short form rounds is about 0.05 %");
     app.add_flag("--flat", flat, "one light value a patch in the picture, not interpolated");
     auto* png = app.add_option("-o,--output", o.png, "picture as PNG, sRGB");
+    auto* path = app.add_option("--path", o.path,
+                                "camera path: a line a key, seconds x,y,z,tx,ty,tz[,fov]; pictures NAME-0000.png and on")
+                     ->needs(png);
+    app.add_option("--frames", o.frames, "pictures along --path")->check(CLI::Range(1u, 100000u))->needs(path);
+    auto* dayOption = app.add_option("--day", o.day,
+                               "day YYYY-MM-DD: every time of it with the sun up, each solved from the one before; "
+                               "pictures NAME-0610.png and on")
+                    ->excludes(sunOption)
+                    ->excludes(date)
+                    ->excludes(path);
+    std::string every = "60m";
+    app.add_option("--every", every, "minutes between the times of --day, as 10m")->needs(dayOption)->capture_default_str();
+    app.add_flag("--lag", o.lag, "print how far each time of --day is from a solution to 1e-6")->needs(dayOption);
+    app.add_flag("--sheet", o.sheet, "the pictures of --path or --day on one sheet")->needs(png);
     auto* exr = app.add_option(
         "--exr", o.exr, "picture as EXR, linear: W/m2/sr for final, without display tints; else the view's own unit");
     app.add_option(
@@ -119,6 +131,8 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         ->capture_default_str();
     app.add_option("--device", o.device,
                    "part of the Vulkan device's name (default: HELIO_DEVICE, else the fastest kind)");
+    app.add_option("--dump-graph", o.dumpGraph,
+                   "write the frame graphs that run, once each, as DOT: passes, what they wait for, sizes");
     app.add_flag("--validate", o.validate, "run under the validation layer; any message is a failure (exit 2)");
     try {
         app.parse(argc, argv);
@@ -138,7 +152,21 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         if (const Result<double> day = parseJulianDay(light.date, light.time, light.utcOffset); !day)
             return Error{concat("--date, --time: ", day.error().message)};
     if (const std::string wrong = checkSize(size, o.width, o.height); !wrong.empty()) return Error{wrong};
-    if (o.png.empty() && o.exr.empty() && o.table.empty())
+    if (!o.path.empty() && o.frames == 0) return Error{"--path: say how many pictures with --frames"};
+    if (o.sheet && o.path.empty() && o.day.empty()) return Error{"--sheet: for --path or --day"};
+    if (!o.day.empty()) {
+        if (const Result<double> noon = parseJulianDay(o.day, "12:00", 0.0); !noon)
+            return Error{concat("--day: ", noon.error().message)};
+        int used = 0;
+        if (std::sscanf(every.c_str(), "%um%n", &o.every, &used) != 1 || size_t(used) != every.size() || o.every < 1 ||
+            o.every > 24 * 60)
+            return Error{concat("--every ", every, ": expected minutes as 10m, 1 to 1440")};
+        if (!o.exr.empty() || !o.table.empty() || !o.firstLight.empty())
+            return Error{"--day makes pictures and a report: no --exr, --table or --first-light with it"};
+    } else if (light.date.empty() && (app.count("--turbidity") > 0 || app.count("--utc-offset") > 0)) {
+        return Error{"--turbidity and --utc-offset need --date or --day"};
+    }
+    if (o.day.empty() && o.png.empty() && o.exr.empty() && o.table.empty())
         return Error{"nothing to do: ask for a picture (-o A.png, --exr A.exr) or a table (--table T.csv); see --help"};
     o.emission = !noEmission;
     o.smooth = !flat;

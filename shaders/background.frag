@@ -17,6 +17,6 @@ void main()
         const vec4 point = view.worldFromClip * vec4(vClip, 0.5, 1.0);
         oRadiance = vec4(skyRadiance(normalize(point.xyz / point.w - view.eye.xyz)), 0.0);
     } else {
-        oRadiance = vec4(0.0, 0.0, 0.0, kMode == kModeId || kMode == kModeDepth ? -1.0 : 0.0);
+        oRadiance = vec4(0.0, 0.0, 0.0, kMode == kModeId || kMode == kModeDepth || kMode >= kModeLevel ? -1.0 : 0.0);
     }
 }

@@ -110,6 +110,8 @@ void main()
         oRadiance = readVec4(indirect, vPatch);
     } else if (kMode == kModeRadiosity) {
         oRadiance = readVec4(radiosity, vPatch);
+    } else if (kMode >= kModeLevel) {
+        oRadiance = vec4(readVec4(radiosity, vPatch).rgb, 1.0);
     } else if (kMode == kModeAlbedo) {
         oRadiance = vec4(vAlbedo, 1.0);
     } else {

@@ -13,11 +13,22 @@ layout(push_constant, scalar) uniform Params { ToneParams params; };
 
 vec3 filmic(vec3 x) { return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.02 / 0.3; }
 
+// From dark blue over violet and orange to pale yellow, rising in lightness (engine/view/legend.cpp draws the same).
+vec3 falseColour(float x)
+{
+    const vec3 stops[5] = vec3[](vec3(0.02, 0.02, 0.12), vec3(0.17, 0.03, 0.34), vec3(0.60, 0.09, 0.20), vec3(0.93, 0.42, 0.06),
+                                 vec3(0.98, 0.93, 0.55));
+    const float at = clamp(x, 0.0, 1.0) * 4.0;
+    const int k = min(int(at), 3);
+    return mix(stops[k], stops[k + 1], at - float(k));
+}
+
 vec3 displayOf(vec4 value)
 {
     if (params.mode == kModeFinal) return filmic(2.0 * params.exposure * value.rgb) / filmic(vec3(8.0));
     if (params.mode == kModeId) return value.rgb;
     if (params.mode == kModeDepth) return value.a < 0.0 ? vec3(0.0) : vec3(params.scale / (params.scale + value.r));
+    if (params.mode >= kModeLevel) return value.a < 0.0 ? vec3(0.0) : falseColour(value.r / params.scale);
     return value.rgb / params.scale;
 }
 

@@ -36,6 +36,8 @@ public:
     const Buffer& sky() const { return sky_; }                     ///< vec4 a patch
     const Buffer& indirect() const { return irradiance_; }         ///< vec4 a node; E_indirect at the patches
     const Buffer& radiosity() const { return senders_[current_]; } ///< vec4 a patch first, see shaders/shared/solve.h
+    /// The same before the last sweep.
+    const Buffer& radiosityBefore() const { return senders_[1 - current_]; }
     const SpectralBounds& spectrum() const { return spectrum_; } ///< zero where the contraction number is below a half
 
 private:

@@ -12,7 +12,9 @@
 #include "engine/stages/sun_raster.h"
 #include "engine/stream/corners.h"
 #include "engine/view/display.h"
+#include "engine/view/legend.h"
 #include "engine/view/light_solver.h"
+#include "engine/view/patch_values.h"
 
 namespace helio {
 
@@ -77,6 +79,23 @@ struct Renderer::Impl
         smooth = makeBuffer(context, "smooth light", std::vector<glm::vec4>(2 * size_t(std::max(corners->count, 1u))));
     }
 
+    /// The numbers that a mode shows in false colour, and the largest of them.
+    void needValues(const ViewOptions& options)
+    {
+        std::vector<glm::vec4> shown;
+        if (options.mode == gpu::kModeLevel) shown = patchLevels(view);
+        if (options.mode == gpu::kModeLinks) shown = linksOfPatch(view, options.picked);
+        if (options.mode == gpu::kModeResidual) {
+            const u64 bytes = u64(tile.patchCount) * sizeof(glm::vec4);
+            shown = asItems<glm::vec4>(download(context, solver.radiosity(), 0, bytes));
+            const auto before = asItems<glm::vec4>(download(context, solver.radiosityBefore(), 0, bytes));
+            for (size_t i = 0; i < shown.size(); ++i) shown[i] = glm::vec4(std::abs(shown[i].a - before[i].a));
+        }
+        largestValue = 1e-30;
+        for (const glm::vec4& value : shown) largestValue = std::max(largestValue, double(value.x));
+        values = makeBuffer(context, "patch values", shown);
+    }
+
     void needImages(u32 width, u32 height, u32 samples)
     {
         if (images.width != width || images.height != height || images.samples != samples) {
@@ -102,6 +121,8 @@ struct Renderer::Impl
     Buffer smooth;
     FrameImages images;
     DrawList drawn;
+    Buffer values;
+    double largestValue = 1.0;
 };
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -202,6 +223,8 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const bool smooth = options.mode == gpu::kModeFinal && options.smoothLight && r.tile.staticVertexCount > 0;
     if (smooth) r.needCorners();
     r.needImages(width, height, samples);
+    const bool numbers = options.mode >= gpu::kModeLevel;
+    if (numbers) r.needValues(options);
 
     const gpu::ForwardParams params =
         forwardParams(camera, double(width) / height, r.solver.sunView(), options.display);
@@ -218,7 +241,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.sun = graph.import(r.solver.sun());
     in.sky = graph.import(r.solver.sky());
     in.indirect = graph.import(r.solver.indirect());
-    in.radiosity = graph.import(r.solver.radiosity());
+    in.radiosity = graph.import(numbers ? r.values : r.solver.radiosity());
     in.cornerOfVertex = graph.import(smooth ? r.corners->ofVertex : r.nothing);
     in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth), r.tile.reads)
                        : graph.import(r.nothing);
@@ -234,7 +257,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     tone.samples = samples;
     tone.mode = options.mode;
     tone.exposure = float(autoExposure(report.meanRadiosity, r.light) * std::exp2(options.exposureStops));
-    tone.scale = float(falseColourScale(options.mode, report.meanRadiosity, r.light));
+    tone.scale = float(numbers ? r.largestValue : falseColourScale(options.mode, report.meanRadiosity, r.light));
     return addTone(graph, targets.radiance, graph.import(r.images.display), tone);
 }
 
@@ -260,6 +283,11 @@ Picture Renderer::render(const Camera& camera, u32 width, u32 height, const View
     picture.height = height;
     picture.passes = r.recorder.times();
     picture.display = downloadTexels<u8>(r.context, r.images.display);
+    if (options.mode >= gpu::kModeLevel)
+        drawLegend(picture, r.largestValue,
+                   options.mode == gpu::kModeLevel   ? "levels"
+                   : options.mode == gpu::kModeLinks ? "/m2"
+                                                     : "W/m2");
     picture.values =
         averageSamples(downloadTexels<glm::vec4>(r.context, r.images.radiance), width, height, r.images.samples);
     return picture;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <glm/vec4.hpp>
 #include <functional>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,6 +65,7 @@ struct SolveReport
 struct ViewOptions
 {
     u32 mode = gpu::kModeFinal; ///< gpu::kMode...
+    u32 picked = 0;             ///< patch whose links kModeLinks shows
     u32 samples = 1;            ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
     bool smoothLight = true;    ///< final: interpolate E_sky and E_indirect over coplanar patches (display only)
     bool display = true; ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky

@@ -16,6 +16,10 @@ HELIO_CONSTANT uint kModeSky = 5u;
 HELIO_CONSTANT uint kModeIndirect = 6u;
 HELIO_CONSTANT uint kModeRadiosity = 7u;
 HELIO_CONSTANT uint kModeAlbedo = 8u;
+// A number a patch, in false colour; bound as the radiosity.
+HELIO_CONSTANT uint kModeLevel = 9u;       // ancestors in the tree
+HELIO_CONSTANT uint kModeLinks = 10u;      // form factor from a picked patch, a square metre
+HELIO_CONSTANT uint kModeResidual = 11u;   // what the last sweep changed of B, W/m2
 
 HELIO_CONSTANT uint kForwardView = 0u;     // ViewRecord
 HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array

@@ -21,6 +21,6 @@ gtest_discover_tests(solver_agreement_test PROPERTIES LABELS gpu)
 
 # What the stages decide without a device.
 add_executable(engine_unit_test unit/engine_solver_test.cpp unit/engine_tables_test.cpp unit/engine_view_test.cpp
-               unit/camera_path_test.cpp unit/facing_test.cpp unit/link_packing_test.cpp support/unpack_links.cpp)
+               unit/camera_path_test.cpp unit/facing_test.cpp unit/link_packing_test.cpp unit/patch_values_test.cpp support/unpack_links.cpp)
 target_link_libraries(engine_unit_test PRIVATE stage_test_support engine_view GTest::gtest_main)
 gtest_discover_tests(engine_unit_test PROPERTIES LABELS unit)

@@ -95,6 +95,7 @@ Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptio
 {
     ViewOptions view;
     view.mode = o.mode;
+    view.picked = o.picked;
     view.samples = o.samples;
     view.smoothLight = o.smooth;
     view.exposureStops = o.exposureStops;
@@ -142,6 +143,9 @@ int runMain(int argc, char** argv)
         return complain(
             concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"),
             kBadInput);
+    if (o.picked >= pack->patchCount())
+        return complain(concat("--pick ", o.picked, ": the pack has ", pack->patchCount(), " patches, 0 on"),
+                        kBadInput);
     std::shared_ptr<const FirstLight> given;
     if (!o.firstLight.empty()) {
         const Result<FirstLight> read = readFirstLight(o.firstLight, *pack);
@@ -210,8 +214,7 @@ int runMain(int argc, char** argv)
     printSolve(o, report);
     const LightTables tables = renderer.readTables();
     printAudit(auditEnergy(pack->tile(), tables, o.emission));
-    if (const Status written =
-            o.path.empty() ? writePictures(renderer, *camera, o) : renderPath(renderer, path, o);
+    if (const Status written = o.path.empty() ? writePictures(renderer, *camera, o) : renderPath(renderer, path, o);
         !written)
         return complain(written.error().message, kBadInput);
     if (!o.table.empty()) {

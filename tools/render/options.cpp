@@ -16,7 +16,8 @@ const std::map<std::string, u32> kModes{{"final", gpu::kModeFinal},        {"id"
                                         {"depth", gpu::kModeDepth},        {"sun-visibility", gpu::kModeSunVisibility},
                                         {"esun", gpu::kModeSun},           {"esky", gpu::kModeSky},
                                         {"eindirect", gpu::kModeIndirect}, {"radiosity", gpu::kModeRadiosity},
-                                        {"albedo", gpu::kModeAlbedo}};
+                                        {"albedo", gpu::kModeAlbedo},      {"level", gpu::kModeLevel},
+                                        {"links", gpu::kModeLinks},        {"residual", gpu::kModeResidual}};
 constexpr u32 kMaxSize = 16384;
 
 std::string checkSize(const std::string& text, u32& width, u32& height)
@@ -100,18 +101,22 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         "keep links in full precision on the device, 16 bytes each: what their short form rounds is about 0.05 %");
     app.add_flag("--flat", flat, "one light value a patch in the picture, not interpolated");
     auto* png = app.add_option("-o,--output", o.png, "picture as PNG, sRGB");
-    auto* path = app.add_option("--path", o.path,
-                                "camera path: a line a key, seconds x,y,z,tx,ty,tz[,fov]; pictures NAME-0000.png and on")
-                     ->needs(png);
+    auto* path =
+        app.add_option("--path", o.path,
+                       "camera path: a line a key, seconds x,y,z,tx,ty,tz[,fov]; pictures NAME-0000.png and on")
+            ->needs(png);
     app.add_option("--frames", o.frames, "pictures along --path")->check(CLI::Range(1u, 100000u))->needs(path);
-    auto* dayOption = app.add_option("--day", o.day,
-                               "day YYYY-MM-DD: every time of it with the sun up, each solved from the one before; "
-                               "pictures NAME-0610.png and on")
-                    ->excludes(sunOption)
-                    ->excludes(date)
-                    ->excludes(path);
+    auto* dayOption =
+        app.add_option("--day", o.day,
+                       "day YYYY-MM-DD: every time of it with the sun up, each solved from the one before; "
+                       "pictures NAME-0610.png and on")
+            ->excludes(sunOption)
+            ->excludes(date)
+            ->excludes(path);
     std::string every = "60m";
-    app.add_option("--every", every, "minutes between the times of --day, as 10m")->needs(dayOption)->capture_default_str();
+    app.add_option("--every", every, "minutes between the times of --day, as 10m")
+        ->needs(dayOption)
+        ->capture_default_str();
     app.add_flag("--lag", o.lag, "print how far each time of --day is from a solution to 1e-6")->needs(dayOption);
     app.add_flag("--sheet", o.sheet, "the pictures of --path or --day on one sheet")->needs(png);
     auto* exr = app.add_option(
@@ -126,9 +131,12 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     app.add_option("--per", per, "row of the table: patch, or face of the OBJ")
         ->check(CLI::IsMember({"patch", "face"}))
         ->capture_default_str();
-    app.add_option("--view", view, "final, id, depth, sun-visibility, esun, esky, eindirect, radiosity or albedo")
+    app.add_option("--view", view,
+                   "final, id, depth, sun-visibility, esun, esky, eindirect, radiosity, albedo; in false colour level, "
+                   "links (of --pick) or residual")
         ->check(CLI::IsMember(kModes))
         ->capture_default_str();
+    app.add_option("--pick", o.picked, "patch whose links --view links shows")->capture_default_str();
     app.add_option("--device", o.device,
                    "part of the Vulkan device's name (default: HELIO_DEVICE, else the fastest kind)");
     app.add_option("--dump-graph", o.dumpGraph,

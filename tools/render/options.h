@@ -26,15 +26,16 @@ struct RenderOptions
     bool smooth = true;
     bool exactLinks = false; ///< in full precision on the device
     std::string png, exr, table;
-    std::string path;  ///< of a camera path; "" = the camera stands
-    u32 frames = 0;    ///< along it
-    std::string day;   ///< YYYY-MM-DD, every `every` minutes of it; "" = one light
-    u32 every = 60;    ///< minutes
-    bool lag = false;  ///< of each time of the day against a converged solution
-    bool sheet = false; ///< pictures of a path or a day on one sheet
+    std::string path;       ///< of a camera path; "" = the camera stands
+    u32 frames = 0;         ///< along it
+    std::string day;        ///< YYYY-MM-DD, every `every` minutes of it; "" = one light
+    u32 every = 60;         ///< minutes
+    bool lag = false;       ///< of each time of the day against a converged solution
+    bool sheet = false;     ///< pictures of a path or a day on one sheet
     std::string firstLight; ///< table of E_sun and E_sky in place of what the sun raster and the sky links give
     TableRows rows = TableRows::Patch;
     u32 mode = gpu::kModeFinal;
+    u32 picked = 0;
     std::string device;
     std::string dumpGraph; ///< file for the graphs that run, in DOT
     bool validate = false;

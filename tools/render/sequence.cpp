@@ -17,6 +17,7 @@ ViewOptions viewOf(const RenderOptions& o)
 {
     ViewOptions view;
     view.mode = o.mode;
+    view.picked = o.picked;
     view.samples = o.samples;
     view.smoothLight = o.smooth;
     view.exposureStops = o.exposureStops;

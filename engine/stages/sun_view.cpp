@@ -92,6 +92,21 @@ glm::mat4 SunView::clipFromWorld(u32 view) const
     return clipFromGrid * gridFromWorld;
 }
 
+SunView shiftedView(const SunView& view, u32 sample)
+{
+    // 1 / g and 1 / g^2, g^3 = g + 1.
+    constexpr double kAlphaX = 0.7548776662466927, kAlphaY = 0.5698402909980532;
+    const auto part = [&](double alpha) {
+        const double x = 0.5 + sample * alpha;
+        return x - std::floor(x) - 0.5;
+    };
+    SunView shifted = view;
+    // A view is one unit wide and high; the margin of a texel around the scene holds the shift of half a one.
+    shifted.gridFromWorld[3][0] += float(part(kAlphaX) / view.width);
+    shifted.gridFromWorld[3][1] += float(part(kAlphaY) / view.height);
+    return shifted;
+}
+
 SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunViewOptions& options)
 {
     HELIO_CHECK(!boxes.empty() && std::abs(glm::length(towardsSun) - 1.0) < 1e-6, boxes.size(),

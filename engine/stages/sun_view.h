@@ -36,6 +36,11 @@ struct SunView
     glm::mat4 clipFromWorld(u32 view) const;
 };
 
+/// The same picture with its texels moved by less than one: sample `sample` of the R2 sequence (Roberts, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018), of which sample 0 moves nothing. Counts of several
+/// samples add up to a finer picture.
+SunView shiftedView(const SunView& view, u32 sample);
+
 /// Fits the picture to the boxes: the rectangle of smallest area (over all rolls about the direction) that holds them,
 /// with a margin of one texel. A long canyon gets pixels shaped to it. towardsSun: unit vector. boxes: at least one.
 SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunViewOptions& options);

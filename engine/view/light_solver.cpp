@@ -152,13 +152,21 @@ void LightSolver::solveSun(const LightState& light)
 {
     std::vector<Box> boxes;
     for (const DrawChunk& chunk : tile_.chunks) boxes.push_back(chunk.box);
-    const bool raster = light.sunUp() && !boxes.empty();
-    sunView_ = raster ? fitSunView(boxes, light.towardsSun, options_.sun) : SunView{};
+    fittedView_ = light.sunUp() && !boxes.empty() ? fitSunView(boxes, light.towardsSun, options_.sun) : SunView{};
+    report_.sunSamples = 0;
+    sampleSun(light);
+}
+
+void LightSolver::sampleSun(const LightState& light)
+{
+    const bool raster = light.sunUp() && !tile_.chunks.empty();
+    sunView_ = shiftedView(fittedView_, report_.sunSamples);
     fitImages();
 
     FrameGraph graph("sun");
     SunPictures pictures{graph.import(*ids_), graph.import(*shadow_)};
-    Ref<Buffer> counts = addFill(graph, graph.import(counts_), 0);
+    Ref<Buffer> counts = graph.import(counts_);
+    if (report_.sunSamples == 0) counts = addFill(graph, counts, 0);
     std::vector<SunLists> lists;
     lists.reserve(sunView_.viewCount());
     for (u32 view = 0; view < sunView_.viewCount(); ++view) {
@@ -169,8 +177,9 @@ void LightSolver::solveSun(const LightState& light)
         counts =
             addHistogram(graph, pictures.ids, counts, sunView_.width, sunView_.height, tile_.patchCount, histogram_);
     }
+    ++report_.sunSamples;
     const SunEnergyInput input{glm::vec3(light.towardsSun), glm::vec4(raster ? float(light.dni) : 0.0f),
-                               sunView_.texelArea(), float(light.sunRadius)};
+                               sunView_.texelArea() / report_.sunSamples, float(light.sunRadius)};
     const SunEnergyRefs energy =
         addSunEnergy(graph, tile_, counts, graph.import(density_), {graph.import(sun_), graph.import(tally_)}, input);
     addReadback(graph, energy.tally, tallyHost_);
@@ -198,7 +207,7 @@ void LightSolver::solveSky(const LightState& light)
 
 void LightSolver::takeGiven(const FirstLight& light)
 {
-    sunView_ = SunView{};
+    sunView_ = fittedView_ = SunView{};
     fitImages(); // pictures bind them, whatever they hold
     upload(context_, sun_, light.sun);
     upload(context_, sky_, light.sky);
@@ -282,6 +291,17 @@ const SolveReport& LightSolver::solve(const LightState& light)
     sweep(light, solved_.has_value() && options_.solve.warmStart && !dark);
     solved_ = light;
     solvedWith_ = options_.solve;
+    return report_;
+}
+
+const SolveReport& LightSolver::refineSun(const LightState& light)
+{
+    solve(light);
+    if (light.given || !light.sunUp()) return report_;
+    report_.cached = false;
+    report_.stages.clear();
+    sampleSun(light);
+    sweep(light, true);
     return report_;
 }
 

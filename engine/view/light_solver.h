@@ -28,6 +28,10 @@ public:
     /// Blocks until the device is done.
     const SolveReport& solve(const LightState& light);
 
+    /// solve, and one more sample of the sun raster with its texels shifted: a sun that stands still gets finer with
+    /// every call. Starts from the last solution. Nothing more than solve without sun.
+    const SolveReport& refineSun(const LightState& light);
+
     RendererOptions& options() { return options_; }
     const SunView& sunView() const { return sunView_; }
     const Image& shadow() const { return *shadow_; }
@@ -42,6 +46,7 @@ public:
 
 private:
     void solveSun(const LightState& light);
+    void sampleSun(const LightState& light);
     void solveSky(const LightState& light);
     void takeGiven(const FirstLight& light);
     void estimateSpectrum();
@@ -64,8 +69,8 @@ private:
     HistogramVariant histogram_ = HistogramVariant::Columns;
 
     SpectralBounds spectrum_;
-    glm::dvec4 radius_{0.0}; ///< see chebyshevRadius
-    SunView sunView_;
+    glm::dvec4 radius_{0.0};       ///< see chebyshevRadius
+    SunView fittedView_, sunView_; ///< sample 0, and the newest
     std::optional<Image> ids_, shadow_;
     Buffer counts_, density_, sun_, tally_, sky_, b0_, irradiance_, parts_, residual_;
     Buffer senders_[2]; ///< a sweep reads the one and writes the other

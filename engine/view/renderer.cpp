@@ -198,6 +198,11 @@ const SolveReport& Renderer::solve()
     return impl_->solver.solve(impl_->light);
 }
 
+const SolveReport& Renderer::refineSun()
+{
+    return impl_->solver.refineSun(impl_->light);
+}
+
 LightTables Renderer::readTables()
 {
     const u64 bytes = u64(impl_->tile.patchCount) * sizeof(glm::vec4);

@@ -58,6 +58,7 @@ struct SolveReport
     u32 excessPatches = 0;                   ///< of them, more texels than their area explains; clamped
     double sunTexelX = 0.0, sunTexelY = 0.0; ///< m
     u32 sunViews = 0, sunWidth = 0, sunHeight = 0;
+    u32 sunSamples = 0;           ///< rasters whose counts add up, see Renderer::refineSun
     std::vector<PassTime> stages; ///< milliseconds on the device: sun raster, histogram, sun energy, sky, gather
 };
 
@@ -120,6 +121,8 @@ public:
 
     /// Stages 1 to 3, if the light changed since the last call. Blocks until the device is done.
     const SolveReport& solve();
+    /// solve, and one more raster of the same sun with its texels shifted, so that E_sun gets finer with every call.
+    const SolveReport& refineSun();
     /// E_sun, E_sky, E_indirect and B of every patch, after solve.
     LightTables readTables();
     /// Texels of each patch in the sun raster, after solve with the sun up.

@@ -203,6 +203,45 @@ TEST_F(SunEnergyTest, AWallOnEdgeToTheSunGetsHalfOfItsDisc)
     EXPECT_NEAR(sun[all[2]].w, 1000.0 * 2.0 / 3.0 / 3.14159265 * radius, 0.02) << "on edge: 0.99 W/m2";
 }
 
+TEST_F(SunEnergyTest, ShiftedSamplesAddUpToAFinerPicture)
+{
+    // Small patches under a comb of plates: with texels of 10 cm one raster errs by what falls between them.
+    TileBuilder b;
+    std::vector<u32> patches;
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 12; ++x) {
+            const auto p = [&](float i, float j) {
+                return glm::vec3(0.5f * (float(x) + i), 0.5f * (float(y) + j), 0.0f);
+            };
+            patches.push_back(b.quad({{p(0, 0), p(1, 0), p(1, 1), p(0, 1)}}, kGrey));
+        }
+    for (int k = 0; k < 8; ++k) {
+        const float x = 0.77f * float(k) + 0.13f;
+        b.quad({{{x, -1, 2}, {x + 0.31f, -1, 2}, {x + 0.31f, 8, 2}, {x, 8, 2}}}, kGrey);
+    }
+    b.group(patches);
+    const auto errorOf = [&](Renderer& coarse, const std::vector<glm::vec4>& exact) {
+        const std::vector<glm::vec4> seen = coarse.readTables().sun;
+        double square = 0.0;
+        for (const u32 i : patches) square += std::pow(double(seen[i].w - exact[i].w), 2.0);
+        return std::sqrt(square / double(patches.size()));
+    };
+    const auto fine = makeRenderer(b.view(), 0.004), coarse = makeRenderer(b.view(), 0.1);
+    for (Renderer* renderer : {fine.get(), coarse.get()}) {
+        renderer->setSun(200.0, 60.0, 1000.0);
+        renderer->solve();
+    }
+    const std::vector<glm::vec4> exact = fine->readTables().sun;
+    const double one = errorOf(*coarse, exact);
+    for (int k = 1; k < 16; ++k) coarse->refineSun();
+    EXPECT_EQ(coarse->refineSun().sunSamples, 17u);
+    // 17 samples of random places would leave a quarter; those of the sequence leave less.
+    EXPECT_LT(errorOf(*coarse, exact), 0.2 * one);
+    EXPECT_GT(one, 10.0) << "W/m2: the test must see something";
+    coarse->setSun(201.0, 60.0, 1000.0);
+    EXPECT_EQ(coarse->solve().sunSamples, 1u) << "another sun starts anew";
+}
+
 TEST_F(SunEnergyTest, TheHorizonCutsTheDisc)
 {
     TileBuilder b;

@@ -2,55 +2,50 @@
 #include "tools/bench/histogram_cases.h"
 
 #include <atomic>
+#include <cstdio>
 
 #include "bench_shaders/embedded.h"
-#include "city/base/hash.h"
 #include "city/base/parallel.h"
 #include "engine/gpu/transfer.h"
 #include "engine/graph/pass_context.h"
 #include "engine/stages/histogram.h"
 #include "shaders/shared/sun.h"
+#include "tools/bench/raster_cases.h"
 
 namespace helio {
 
 namespace {
 
-constexpr u32 kSize = 4096, kPatches = 100000;
-constexpr u32 kCells = 447; // along a side; half of the cells are background, as about a city
+constexpr u32 kSize = 4096, kTriangles = 1400000; // about 100,000 patches
 
 struct Picture
 {
+    std::shared_ptr<SunScene> scene;
+    u32 width = 0, height = 0, patchCount = 0;
     std::vector<u32> ids, counts;
-    Image image;
     Buffer device;
 };
 
-/// Rectangles of about 9 x 9 texels with borders that shift from row to row, as facades seen from the sun.
+/// The city as the sun raster shows it.
 std::shared_ptr<Picture> makePicture(Context& context)
 {
     auto picture = std::make_shared<Picture>();
-    picture->ids.resize(size_t(kSize) * kSize);
-    picture->counts.assign(kPatches, 0);
-    Random random(5);
-    std::vector<u32> patchOf(kCells * kCells, kNoIndex);
-    // Background in blocks of eight by eight cells.
-    u32 next = 0;
-    std::vector<bool> city((kCells / 8 + 1) * (kCells / 8 + 1));
-    for (size_t k = 0; k < city.size(); ++k) city[k] = random.uniform() < 0.501;
-    for (u32 y = 0; y < kCells; ++y)
-        for (u32 x = 0; x < kCells; ++x)
-            if (city[y / 8 * (kCells / 8 + 1) + x / 8] && next < kPatches) patchOf[y * kCells + x] = next++;
-    for (u32 y = 0; y < kSize; ++y)
-        for (u32 x = 0; x < kSize; ++x) {
-            const u32 column = (x + y / 3 % 5) * kCells / (kSize + 8), row = (y + x / 7 % 3) * kCells / (kSize + 8);
-            const u32 id = patchOf[row * kCells + column];
-            picture->ids[size_t(y) * kSize + x] = id;
-            if (id != kNoIndex) ++picture->counts[id];
-        }
-    picture->image = Image(context, {"ids", kSize, kSize, VK_FORMAT_R32_UINT, 1,
-                                     VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT});
-    uploadImage(context, picture->image, std::as_bytes(std::span(picture->ids)));
-    picture->device = makeBuffer(context, "counts", std::vector<u32>(kPatches));
+    picture->scene = makeSunScene(context, BoxCity(kTriangles), kSize);
+    SunScene& scene = *picture->scene;
+    FrameGraph graph("picture");
+    (void)addSunRaster(graph, scene.tile, scene.facing, scene.sun, 0,
+                       {graph.import(scene.ids), graph.import(scene.depth)});
+    Recorder recorder(context);
+    runGraph(context, recorder, graph);
+    picture->width = scene.sun.width;
+    picture->height = scene.sun.height;
+    picture->patchCount = scene.tile.patchCount;
+    picture->ids = downloadTexels<u32>(context, scene.ids);
+    picture->counts.assign(picture->patchCount, 0);
+    for (const u32 id : picture->ids)
+        if (id != kNoIndex) ++picture->counts[id];
+    picture->device = makeBuffer(context, "counts", std::vector<u32>(picture->patchCount));
+    std::printf("histogram: %u x %u texels, %u patches\n", picture->width, picture->height, picture->patchCount);
     return picture;
 }
 
@@ -59,12 +54,12 @@ void addOwn(FrameGraph& graph, const Picture& picture, const ShaderCode& shader,
 {
     const Ref<Buffer> zero = addFill(graph, graph.import(picture.device), 0);
     graph.addPass("histogram", [&](PassBuilder& pass) {
-        const auto ids = pass.read(pass.import(picture.image), Use::ComputeRead);
+        const auto ids = pass.read(pass.import(picture.scene->ids), Use::ComputeRead);
         const auto counts = pass.write(zero, Use::ComputeReadWrite);
-        pass.record([=, &shader](PassContext& ctx) {
-            ctx.dispatch(shader, {storage(gpu::kHistogramIds, ids), storage(gpu::kHistogramCounts, counts)},
-                         gpu::HistogramParams{kSize, kSize, kPatches},
-                         groupsFor2D(kSize, kSize, groupWidth, groupHeight));
+        pass.record([=, &shader, params = gpu::HistogramParams{picture.width, picture.height, picture.patchCount}](
+                        PassContext& ctx) {
+            ctx.dispatch(shader, {storage(gpu::kHistogramIds, ids), storage(gpu::kHistogramCounts, counts)}, params,
+                         groupsFor2D(params.width, params.height, groupWidth, groupHeight));
         });
     });
 }
@@ -73,13 +68,13 @@ void addOwn(FrameGraph& graph, const Picture& picture, const ShaderCode& shader,
 void countOnHost(const Picture& picture, std::vector<std::atomic<u32>>& counts)
 {
     for (std::atomic<u32>& count : counts) count.store(0, std::memory_order_relaxed);
-    parallelFor(kSize, 64, 2, [&](u32 begin, u32 end) {
-        const u32* at = picture.ids.data() + size_t(begin) * kSize;
-        const u32* const last = picture.ids.data() + size_t(end) * kSize;
+    parallelFor(picture.height, 64, 2, [&](u32 begin, u32 end) {
+        const u32* at = picture.ids.data() + size_t(begin) * picture.width;
+        const u32* const last = picture.ids.data() + size_t(end) * picture.width;
         while (at < last) {
             const u32* const first = at;
             while (at < last && *at == *first) ++at;
-            if (*first < kPatches) counts[*first].fetch_add(u32(at - first), std::memory_order_relaxed);
+            if (*first < picture.patchCount) counts[*first].fetch_add(u32(at - first), std::memory_order_relaxed);
         }
     });
 }
@@ -111,12 +106,13 @@ void addHistogramCases(CaseList& cases)
     const auto engine = [&](HistogramVariant variant) {
         return [&picture, variant](FrameGraph& graph) {
             const Ref<Buffer> zero = addFill(graph, graph.import(picture.device), 0);
-            (void)addHistogram(graph, graph.import(picture.image), zero, kSize, kSize, kPatches, variant);
+            (void)addHistogram(graph, graph.import(picture.scene->ids), zero, picture.width, picture.height,
+                               picture.patchCount, variant);
         };
     };
     checked("histogram, columns", engine(HistogramVariant::Columns));
     checked("histogram, subgroups", engine(HistogramVariant::Subgroups));
-    auto& counts = cases.keep(std::make_shared<std::vector<std::atomic<u32>>>(kPatches));
+    auto& counts = cases.keep(std::make_shared<std::vector<std::atomic<u32>>>(picture.patchCount));
     cases.addWall("histogram, host", [&](CaseList::Figures&) { countOnHost(picture, counts); });
     cases.addRatio({"histogram: columns over an atomic a texel", "histogram, an atomic a texel", "histogram, columns"});
     cases.addRatio({"histogram: reading alone over columns", "histogram, columns", "histogram, reads alone"});

@@ -14,39 +14,9 @@ namespace {
 
 constexpr u32 kTriangles = 1000000, kSize = 2048;
 
-struct SunCase
-{
-    TileTables tile;
-    SunView sun;
-    SunLists everything, facing;
-    Image ids, depth;
-};
-
-std::shared_ptr<SunCase> makeSunCase(Context& context, const BoxCity& city)
-{
-    auto tables = uploadTile(context, city.view());
-    HELIO_CHECK(tables.ok(), tables.ok() ? "" : tables.error().message);
-    const glm::dvec3 towardsSun = glm::normalize(glm::dvec3(0.4, -0.6, 0.6));
-    std::vector<Box> boxes;
-    for (const DrawChunk& chunk : tables->chunks) boxes.push_back(chunk.box);
-    auto c = std::make_shared<SunCase>();
-    c->sun =
-        fitSunView(boxes, towardsSun, {.texel = 1e-3, .maxTexels = kSize * kSize, .maxViewSize = kSize, .maxViews = 1});
-    const glm::mat4 clip = c->sun.clipFromWorld(0);
-    SunDraws draws = sunDraws(tables->chunks, clip, glm::vec3(towardsSun));
-    c->everything = {DrawList(context, {}), DrawList(context, visibleDraws(tables->chunks, clip))};
-    c->facing = {DrawList(context, std::move(draws.closed)), DrawList(context, std::move(draws.open))};
-    c->tile = std::move(*tables);
-    c->ids = Image(context, {"ids", c->sun.width, c->sun.height, kIdFormat, 1,
-                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-    c->depth = Image(
-        context, {"depth", c->sun.width, c->sun.height, kDepthFormat, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
-    return c;
-}
-
 void addSunCases(CaseList& cases, const BoxCity& city)
 {
-    SunCase& c = cases.keep(makeSunCase(cases.context(), city));
+    SunScene& c = cases.keep(makeSunScene(cases.context(), city, kSize));
     const auto raster = [&](const SunLists& lists) {
         return [&](FrameGraph& graph) {
             (void)addSunRaster(graph, c.tile, lists, c.sun, 0, {graph.import(c.ids), graph.import(c.depth)});
@@ -112,6 +82,29 @@ void addFrameCases(CaseList& cases, const BoxCity& city)
 }
 
 } // namespace
+
+std::shared_ptr<SunScene> makeSunScene(Context& context, const BoxCity& city, u32 size)
+{
+    auto tables = uploadTile(context, city.view());
+    HELIO_CHECK(tables.ok(), tables.ok() ? "" : tables.error().message);
+    const glm::dvec3 towardsSun = glm::normalize(glm::dvec3(0.4, -0.6, 0.6));
+    std::vector<Box> boxes;
+    for (const DrawChunk& chunk : tables->chunks) boxes.push_back(chunk.box);
+    auto c = std::make_shared<SunScene>();
+    c->sun = fitSunView(boxes, towardsSun,
+                        {.texel = 1e-3, .maxTexels = u64(size) * size, .maxViewSize = size, .maxViews = 1});
+    const glm::mat4 clip = c->sun.clipFromWorld(0);
+    SunDraws draws = sunDraws(tables->chunks, clip, glm::vec3(towardsSun));
+    c->everything = {DrawList(context, {}), DrawList(context, visibleDraws(tables->chunks, clip))};
+    c->facing = {DrawList(context, std::move(draws.closed)), DrawList(context, std::move(draws.open))};
+    c->tile = std::move(*tables);
+    c->ids = Image(
+        context, {"ids", c->sun.width, c->sun.height, kIdFormat, 1,
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    c->depth = Image(
+        context, {"depth", c->sun.width, c->sun.height, kDepthFormat, 1, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
+    return c;
+}
 
 void addRasterCases(CaseList& cases)
 {

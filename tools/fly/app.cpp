@@ -13,6 +13,8 @@
 namespace helio {
 namespace {
 
+constexpr u32 kMostSunSamples = 16;
+
 using Clock = std::chrono::steady_clock;
 
 constexpr double kDegreesPerPixel = 0.15;
@@ -127,6 +129,9 @@ bool FlyApp::drawFrame(ShownPicture* capture)
     const Clock::time_point begin = Clock::now();
     renderer_->setSun(flight_.sunAzimuthDeg, flight_.sunElevationDeg, options_.dni);
     report_ = renderer_->solve();
+    // A sun that stands still gets finer; a script shows what one raster gives.
+    if (options_.script.empty() && report_.cached && report_.sunSamples < kMostSunSamples)
+        report_ = renderer_->refineSun();
 
     const DebugView& debug = kViews[view_ - 1];
     Camera camera;

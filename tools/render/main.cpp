@@ -209,7 +209,8 @@ int runMain(int argc, char** argv)
     renderer.setSun(light->azimuthDeg, light->elevationDeg, light->dni);
     renderer.setSky(light->dhi, light->skyRadiance);
     renderer.setEmission(o.emission);
-    const SolveReport report = renderer.solve();
+    SolveReport report = renderer.solve();
+    for (u32 k = 1; k < o.sunSamples; ++k) report = renderer.refineSun();
     steps.done("solve");
     printSolve(o, report);
     const LightTables tables = renderer.readTables();

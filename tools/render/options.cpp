@@ -90,6 +90,9 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
     app.add_option("--sun-texel", o.sunTexel, "size of a texel of the sun raster, m; 0 = 0.04 or what the scene allows")
         ->check(numberIn(0.0, 100.0))
         ->capture_default_str();
+    app.add_option("--sun-samples", o.sunSamples, "sun rasters with shifted texels, whose counts add up")
+        ->check(CLI::Range(1u, 256u))
+        ->capture_default_str();
     app.add_option("--samples", o.samples, "samples a pixel along each axis")
         ->check(CLI::Range(1u, 4u))
         ->capture_default_str();

@@ -21,6 +21,7 @@ struct RenderOptions
     u32 sweeps = 0; ///< > 0: exactly this many
     double residual = 1e-3;
     double sunTexel = 0.0; ///< m; 0 = the default
+    u32 sunSamples = 1;    ///< sun rasters with shifted texels
     u32 samples = 3;
     double exposureStops = 0.0;
     bool smooth = true;

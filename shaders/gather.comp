@@ -36,7 +36,11 @@ float factorOf(uint link)
 
 vec4 meanOf(uint at) { return uintBitsToFloat(readUvec4(senders, at)); }
 
-vec4 fromPatch(uint link, uint base) { return factorOf(link) * meanOf(base + (link >> kFactorBits)); }
+vec4 fromPatch(uint link, uint base)
+{
+    precise vec4 light = factorOf(link) * meanOf(base + (link >> kFactorBits));
+    return light;
+}
 
 // moment: the link's two bytes in its upper half.
 vec4 fromInner(uint link, uint base, uint moment)
@@ -45,7 +49,8 @@ vec4 fromInner(uint link, uint base, uint moment)
     const vec2 part = vec2(int(moment << 8) >> 24, int(moment) >> 24) * (kMomentLimit / 127.0);
     const uvec4 slopes = readUvec4(senders, at + 1u);
     const vec4 mean = meanOf(at);
-    return factorOf(link) * (mean + mean * (part.x * slopeX(slopes) + part.y * slopeY(slopes)));
+    precise vec4 light = factorOf(link) * (mean + mean * (part.x * slopeX(slopes) + part.y * slopeY(slopes)));
+    return light;
 }
 
 void main()
@@ -94,7 +99,7 @@ void main()
     if (receiver.y != kNone) sum += readVec4(parents, receiver.y);
     irradiance[receiver.x] = sum;
 #ifdef HELIO_UPDATE
-    vec4 next = readVec4(b0, receiver.x) + readVec4(reflectance, receiver.x) * sum;
+    precise vec4 next = readVec4(b0, receiver.x) + readVec4(reflectance, receiver.x) * sum;
     if (kChebyshev) {
         // Where the weight is 1 what lies there is nobody's radiosity yet.
         const vec4 last = readVec4(before, receiver.x);

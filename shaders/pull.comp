@@ -26,7 +26,7 @@ void main()
     if (k >= params.count) return;
     const uint row = params.first + k - params.patchCount;
     const uint end = readUint(childRows, row + 1u);
-    vec4 sum = vec4(0.0), x = vec4(0.0), y = vec4(0.0);
+    precise vec4 sum = vec4(0.0), x = vec4(0.0), y = vec4(0.0); // the same bits however the arrays are read
     for (uint c = readUint(childRows, row); c < end; ++c) {
         const uvec4 child = readUvec4(children, c);
         const bool isPatch = child.x < params.patchCount;

@@ -248,6 +248,7 @@ Status Context::createDevice(const ContextOptions& options)
     features.features.drawIndirectFirstInstance = facts_.drawIndirectFirstInstance;
     features.features.fragmentStoresAndAtomics = facts_.fragmentStoresAndAtomics;
     features.features.depthClamp = facts_.depthClamp;
+    features.features.shaderStorageImageExtendedFormats = facts_.storageImageExtendedFormats;
 
     const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     VkDeviceCreateInfo info{};

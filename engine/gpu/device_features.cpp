@@ -21,8 +21,10 @@ constexpr RequiredFeature kRequired[] = {
      [](const DeviceFacts& f) { return f.scalarBlockLayout; }},
     {"subgroup ballot in compute", "the histogram joins equal patch ids before its atomics",
      [](const DeviceFacts& f) { return f.subgroupBallot; }},
-    {"subgroup arithmetic in compute", "the histogram and the residual add within a subgroup",
+    {"subgroup arithmetic in compute", "the histogram adds within a subgroup",
      [](const DeviceFacts& f) { return f.subgroupArithmetic; }},
+    {"twelve storage buffers in one shader", "the gather reads and writes eleven",
+     [](const DeviceFacts& f) { return f.maxStageStorageBuffers >= 12; }},
     {"a queue with graphics and compute", "all stages share one queue",
      [](const DeviceFacts& f) { return f.graphicsAndComputeQueue; }},
 };
@@ -55,6 +57,8 @@ DeviceFacts queryFacts(VkPhysicalDevice device)
     facts.maxPushConstantBytes = basic.limits.maxPushConstantsSize;
     facts.maxImageDimension2D = basic.limits.maxImageDimension2D;
     facts.maxImageArrayLayers = basic.limits.maxImageArrayLayers;
+    facts.maxStageStorageImages = basic.limits.maxPerStageDescriptorStorageImages;
+    facts.maxStageStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
     facts.maxTexelBufferElements = basic.limits.maxTexelBufferElements;
     facts.maxStorageBufferBytes = basic.limits.maxStorageBufferRange;
     facts.maxDispatchGroups = basic.limits.maxComputeWorkGroupCount[0];
@@ -105,6 +109,7 @@ DeviceFacts queryFacts(VkPhysicalDevice device)
     facts.drawIndirectFirstInstance = features.features.drawIndirectFirstInstance;
     facts.fragmentStoresAndAtomics = features.features.fragmentStoresAndAtomics;
     facts.depthClamp = features.features.depthClamp;
+    facts.storageImageExtendedFormats = features.features.shaderStorageImageExtendedFormats;
     return facts;
 }
 

@@ -27,12 +27,15 @@ struct DeviceFacts
     bool drawIndirectFirstInstance = false;
     bool fragmentStoresAndAtomics = false;
     bool depthClamp = false;
+    bool storageImageExtendedFormats = false; ///< two-component storage texel buffers
     // Limits that decide layouts and shader variants.
     u32 subgroupSize = 0;
     u32 maxPushConstantBytes = 0;
     u32 maxImageDimension2D = 0;
     u32 maxImageArrayLayers = 0;
     u32 maxTexelBufferElements = 0;
+    u32 maxStageStorageImages = 0;  ///< descriptors of one shader
+    u32 maxStageStorageBuffers = 0; ///< likewise
     u64 maxStorageBufferBytes = 0;
     u32 maxDispatchGroups = 0;   // along x
     float timestampPeriodNs = 0; // ns per tick; 0 = the queue has no timestamps

@@ -195,10 +195,11 @@ SunDraws sunDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWo
         suns.clear();
         for (const glm::mat3& m : chunk.normalFromSun) suns.push_back(m * towardsSun);
         for (const FacingRange& range : chunk.facing->ranges) {
-            const bool faces = std::any_of(suns.begin(), suns.end(), [&](const glm::vec3& sun) {
-                return std::any_of(range.normals.begin(), range.normals.end(),
-                                   [&](const glm::vec3& normal) { return glm::dot(normal, sun) > 0.0f; });
-            });
+            const bool faces =
+                range.always || std::any_of(suns.begin(), suns.end(), [&](const glm::vec3& sun) {
+                    return std::any_of(range.normals.begin(), range.normals.end(),
+                                       [&](const glm::vec3& normal) { return glm::dot(normal, sun) > 0.0f; });
+                });
             if (!faces) continue;
             part.firstIndex = range.firstIndex;
             part.indexCount = range.indexCount;

@@ -22,6 +22,7 @@ struct FacingRange
 {
     u32 firstIndex = 0, indexCount = 0;
     std::vector<glm::vec3> normals; ///< unit, local, each once: outward
+    bool always = false;            ///< too many normals to tell: drawn whatever the sun
 };
 
 /// The triangles of a draw, sorted: those of open surfaces first, then closed ones by the way they face.

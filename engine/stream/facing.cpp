@@ -15,6 +15,7 @@ namespace {
 
 constexpr u32 kSectors = 16;         // of azimuth; with up and down the directions that ranges are sorted by
 constexpr float kSteep = 0.7f;       // a normal's z from which on it faces up or down
+constexpr size_t kMostNormals = 64;  // of a range: a curved one is not worth the while
 constexpr float kSameNormal = 1e-4f; // two normals this close are one
 
 /// Sets of corners that hang together.
@@ -135,15 +136,19 @@ FacingMesh sortByFacing(std::span<const glm::vec3> positions, const std::vector<
             mesh.openCount += 3;
             continue;
         }
-        if (direction != last) mesh.ranges.push_back({firstIndex + 3 * n, 0, {}});
+        if (direction != last) mesh.ranges.push_back({firstIndex + 3 * n, 0, {}, false});
         last = direction;
         FacingRange& range = mesh.ranges.back();
         range.indexCount += 3;
         const glm::vec3& normal = normals[triangle];
+        if (range.always) continue;
         const bool known = std::any_of(range.normals.begin(), range.normals.end(), [&](const glm::vec3& other) {
             return glm::distance(other, normal) < kSameNormal;
         });
         if (!known) range.normals.push_back(normal);
+        if (range.normals.size() <= kMostNormals) continue;
+        range.always = true;
+        range.normals.clear();
     }
     return mesh;
 }

@@ -12,11 +12,19 @@
 
 namespace helio {
 
+bool canRead(const Context& context, Reads reads, u64 elements)
+{
+    constexpr u32 kMostImages = 9; // of one shader, the gather that updates
+    if (reads == Reads::Storage) return true;
+    if (!context.texelsFit(elements)) return false;
+    const DeviceFacts& facts = context.facts();
+    return reads == Reads::Texels || (facts.storageImageExtendedFormats && facts.maxStageStorageImages >= kMostImages);
+}
+
 Reads fastestReads(Context& context, u64 elements)
 {
     constexpr u32 kTable = 1u << 16, kGroups = 64, kRuns = 3;
-    const bool texelsFit = context.texelsFit(std::max<u64>(elements, kTable));
-    if (!texelsFit) return Reads::Storage;
+    if (!canRead(context, Reads::Texels, std::max<u64>(elements, kTable))) return Reads::Storage;
     const ReadVariants variants{shaders::kRandomGatherComp, shaders::kRandomGatherImagesComp,
                                 shaders::kRandomGatherStorageComp};
     const Buffer table = makeBuffer(context, "sample table", std::vector<glm::vec4>(kTable));
@@ -26,6 +34,7 @@ Reads fastestReads(Context& context, u64 elements)
     Recorder recorder(context);
     for (u32 run = 0; run <= kRuns; ++run) // the first one compiles
         for (u32 k = 0; k < best.size(); ++k) {
+            if (!canRead(context, Reads(k), elements)) continue;
             FrameGraph graph("reads sample");
             graph.addPass("loads", [&](PassBuilder& pass) {
                 const auto from = pass.read(pass.import(table), Use::ComputeRead);

@@ -26,6 +26,9 @@ struct ReadVariants
     }
 };
 
+/// Does the device serve a way of reading, for arrays of so many elements?
+bool canRead(const Context& context, Reads reads, u64 elements);
+
 /// The fastest way on this device to load 16 bytes from scattered places of an array of `elements`: all that can hold
 /// it load from a table of 1 MiB, three times each. Storage where the device has no timestamps.
 Reads fastestReads(Context& context, u64 elements);

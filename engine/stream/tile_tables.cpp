@@ -51,12 +51,15 @@ Result<LinkBuffers> packAndUpload(Context& context, const char* name, const Link
     return uploadLinks(context, name, *packed, links);
 }
 
-/// Elements of the largest array that the solve reads, the links aside.
+/// Elements of the largest array that the solve and the pictures read, the links aside.
 u64 largestArray(const TileView& tile)
 {
+    // Corners of interpolated light: two values each, no more of them than triangle corners.
+    const u64 corners = 2 * u64(tile.indices.size()), vertices = countStaticVertices(tile);
     const u64 inner = tile.nodes.size() - tile.patches.size();
     const u64 senders = tile.patches.size() + (tile.linkMoments.empty() ? 1 : 2) * inner;
-    return std::max({senders, u64(tile.children.size()), u64(tile.nodes.size() + tile.nodes.size() / 4)});
+    return std::max(
+        {senders, corners, vertices, u64(tile.children.size()), u64(tile.nodes.size() + tile.nodes.size() / 4)});
 }
 
 } // namespace

@@ -182,8 +182,10 @@ protected:
     /// The ways of reading that this device has for arrays of so many elements.
     std::vector<Reads> allReads(u64 elements)
     {
-        if (!context().texelsFit(elements)) return {Reads::Storage};
-        return {Reads::Storage, Reads::Texels, Reads::Images};
+        std::vector<Reads> all;
+        for (const Reads reads : {Reads::Storage, Reads::Texels, Reads::Images})
+            if (canRead(context(), reads, elements)) all.push_back(reads);
+        return all;
     }
 
     std::vector<glm::vec4> gather(const TileTables& tile, const DeviceLight& light)

@@ -447,9 +447,13 @@ TEST_F(RenderCli, CameraPath)
     const std::string quick = "p --size 64x36 --samples 1 --sun-texel 0.25 ";
     const RunResult run = render(quick + "--path path.txt --frames 3 -o a.png --validate");
     ASSERT_EQ(run.exitCode, 0) << run.err;
-    for (const char* name : {"a-0000.png", "a-0001.png", "a-0002.png"})
-        EXPECT_GT(bytesOf(name).size(), 100u) << name;
+    for (const char* name : {"a-0000.png", "a-0001.png", "a-0002.png"}) EXPECT_GT(bytesOf(name).size(), 100u) << name;
     EXPECT_NE(bytesOf("a-0000.png"), bytesOf("a-0002.png"));
+    EXPECT_NE(run.out.find("Frame 2 at 1.000 s"), std::string::npos) << run.out;
+    size_t still = 0;
+    for (size_t at = run.out.find(" 0.0 for stages 1 to 3"); at != std::string::npos; ++still)
+        at = run.out.find(" 0.0 for stages 1 to 3", at + 1);
+    EXPECT_EQ(still, 3u) << "a moving camera costs no work of stages 1 to 3: " << run.out;
     EXPECT_FALSE(std::filesystem::exists(temp_ / "a.png"));
     // The first key, by itself.
     ASSERT_EQ(render(quick + "--camera 6,-6,4,0,0,1 -o b.png").exitCode, 0);
@@ -461,6 +465,7 @@ TEST_F(RenderCli, CameraPath)
     EXPECT_EQ(sheet->height, 72u);
 
     expectRefusal(quick + "--path path.txt -o a.png", "--frames");
+    expectRefusal(quick + "--path path.txt --frames 2 -o a.png --exr a.exr", "--exr");
     expectRefusal(quick + "--path none.txt --frames 2 -o a.png", "none.txt");
     put("bad.txt", "0 6,-6,4,0,0,1\n0 6,6,4,0,0,1\n");
     expectRefusal(quick + "--path bad.txt --frames 2 -o c.png", "bad.txt: line 2");
@@ -468,8 +473,8 @@ TEST_F(RenderCli, CameraPath)
 
     ASSERT_EQ(render(quick + "-o a.png --dump-graph g.dot").exitCode, 0);
     const std::string dot = bytesOf("g.dot");
-    for (const char* word : {"digraph \"sun\"", "digraph \"sweep\"", "digraph \"frame\"", "wait: ", "compute to",
-                             "KiB", "forward"})
+    for (const char* word :
+         {"digraph \"sun\"", "digraph \"sweep\"", "digraph \"frame\"", "wait: ", "compute to", "KiB", "forward"})
         EXPECT_NE(dot.find(word), std::string::npos) << word;
 }
 
@@ -534,6 +539,7 @@ TEST_F(RenderCli, BenchReports)
     ASSERT_EQ(kernels.exitCode, 0) << kernels.err;
     EXPECT_NE(kernels.out.find("stream copy"), std::string::npos) << kernels.out;
     EXPECT_EQ(kernels.out.find("gather"), std::string::npos) << kernels.out;
+    EXPECT_EQ(test::runProgram(HELIO_BENCH, "p --only wobble", temp_.path()).exitCode, 1);
 
     EXPECT_EQ(test::runProgram(HELIO_BENCH, "--help", temp_.path()).exitCode, 0);
     expectRefusal("none", "none", HELIO_BENCH);

@@ -12,6 +12,7 @@ namespace {
 DeviceFacts completeDevice()
 {
     DeviceFacts facts;
+    facts.maxStageStorageBuffers = 16;
     facts.name = "Testdevice";
     facts.apiVersion = VK_API_VERSION_1_3;
     facts.dynamicRendering = facts.synchronization2 = facts.maintenance4 = facts.scalarBlockLayout = true;
@@ -43,6 +44,7 @@ TEST(DeviceFeatures, EachMissingFeatureIsNamedWithItsReason)
         {"scalarBlockLayout", [](DeviceFacts& f) { f.scalarBlockLayout = false; }},
         {"subgroup ballot in compute", [](DeviceFacts& f) { f.subgroupBallot = false; }},
         {"subgroup arithmetic in compute", [](DeviceFacts& f) { f.subgroupArithmetic = false; }},
+        {"twelve storage buffers in one shader", [](DeviceFacts& f) { f.maxStageStorageBuffers = 11; }},
         {"a queue with graphics and compute", [](DeviceFacts& f) { f.graphicsAndComputeQueue = false; }},
     };
     ASSERT_EQ(cases.size(), requiredFeatures().size()) << "a required feature has no case here";

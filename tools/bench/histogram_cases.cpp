@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/bench/histogram_cases.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
 
@@ -83,7 +85,9 @@ void countOnHost(const Picture& picture, std::vector<std::atomic<u32>>& counts)
 
 void addHistogramCases(CaseList& cases)
 {
-    if (!cases.wants("histogram")) return;
+    const std::array names{"histogram, reads alone", "histogram, an atomic a texel", "histogram, columns",
+                           "histogram, subgroups", "histogram, host"};
+    if (std::none_of(names.begin(), names.end(), [&](const char* name) { return cases.wants(name); })) return;
     Context& context = cases.context();
     Picture& picture = cases.keep(makePicture(context));
     const double bytes = double(picture.ids.size()) * sizeof(u32);

@@ -102,7 +102,8 @@ int runMain(int argc, char** argv)
         addRasterCases(cases);
     }
     Report report(cases.ratios());
-    benchmark::RunSpecifiedBenchmarks(&report);
+    if (benchmark::RunSpecifiedBenchmarks(&report) == 0)
+        return complain(concat("no case has '", o.only, "' in its name"), kBadInput);
     if (o.json.empty()) return kOk;
     std::error_code failure;
     std::filesystem::rename(part, o.json, failure);

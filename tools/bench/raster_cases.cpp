@@ -109,7 +109,8 @@ std::shared_ptr<SunScene> makeSunScene(Context& context, const BoxCity& city, u3
 void addRasterCases(CaseList& cases)
 {
     const bool sun = cases.wants("sun raster, everything") || cases.wants("sun raster, what faces the sun");
-    const bool frame = cases.wants("forward, shadows and light") || cases.wants("forward, albedo alone");
+    const bool frame = cases.wants("forward, shadows and light") || cases.wants("forward, interpolated light") ||
+                       cases.wants("forward, albedo alone");
     if (!sun && !frame) return;
     BoxCity& city = cases.keep(std::make_shared<BoxCity>(kTriangles));
     if (sun) addSunCases(cases, city);

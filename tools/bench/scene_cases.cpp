@@ -25,8 +25,8 @@ public:
     /// which does not care what came before.
     void moveSun(CaseList::Figures& figures, double degrees, bool warm)
     {
-        const double step = double(++moves_ % 2);
-        renderer_.setSun(150.0 + degrees * step, 40.0, 800.0 + step);
+        if (degrees > 0.0) azimuth_ = azimuth_ > 150.0 ? 150.0 : 150.0 + degrees;
+        renderer_.setSun(azimuth_, 40.0, 800.0 + double(++moves_ % 2));
         renderer_.solveOptions() = {.residual = o_.residual, .warmStart = warm};
         const SolveReport& report = renderer_.solve();
         for (const PassTime& stage : report.stages) figures[stage.name] = stage.milliseconds;
@@ -66,6 +66,7 @@ private:
     Camera camera_;
     const BenchOptions& o_;
     Recorder recorder_;
+    double azimuth_ = 150.0; ///< of the sun
     u32 moves_ = 0, solves_ = 0;
 };
 

@@ -114,6 +114,14 @@ Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptio
     return Nothing{};
 }
 
+Status writeGraphs(const RenderOptions& o, const std::set<std::string>& graphs)
+{
+    if (o.dumpGraph.empty()) return Nothing{};
+    std::string text;
+    for (const std::string& graph : graphs) text += graph;
+    return writeTextAtomically(o.dumpGraph, text);
+}
+
 /// The exit code: what the validation layer said is a failure.
 int reportValidation(Context& context, const RenderOptions& o)
 {
@@ -203,6 +211,8 @@ int runMain(int argc, char** argv)
         const Status drawn = renderDay(renderer, context, *pack, *camera, o);
         if (!drawn) return complain(drawn.error().message, kBadInput);
         steps.done("day");
+        if (const Status written = writeGraphs(o, graphs); !written)
+            return complain(written.error().message, kBadInput);
         return reportValidation(context, o);
     }
     renderer.setFirstLight(given);
@@ -225,12 +235,7 @@ int runMain(int argc, char** argv)
             return complain(written.error().message, kBadInput);
     }
     steps.done("pictures and table");
-    if (!o.dumpGraph.empty()) {
-        std::string text;
-        for (const std::string& graph : graphs) text += graph;
-        if (const Status written = writeTextAtomically(o.dumpGraph, text); !written)
-            return complain(written.error().message, kBadInput);
-    }
+    if (const Status written = writeGraphs(o, graphs); !written) return complain(written.error().message, kBadInput);
     return reportValidation(context, o);
 }
 

@@ -164,6 +164,7 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
             return Error{concat("--date, --time: ", day.error().message)};
     if (const std::string wrong = checkSize(size, o.width, o.height); !wrong.empty()) return Error{wrong};
     if (!o.path.empty() && o.frames == 0) return Error{"--path: say how many pictures with --frames"};
+    if (!o.path.empty() && !o.exr.empty()) return Error{"--exr: one picture; --path makes PNG files"};
     if (o.sheet && o.path.empty() && o.day.empty()) return Error{"--sheet: for --path or --day"};
     if (!o.day.empty()) {
         if (const Result<double> noon = parseJulianDay(o.day, "12:00", 0.0); !noon)

@@ -33,7 +33,7 @@ public:
     Status add(const std::string& name, Picture picture)
     {
         if (o_.sheet) {
-            pictures_.push_back(std::move(picture));
+            pictures_.push_back(std::move(picture.display));
             return Nothing{};
         }
         const std::filesystem::path png(o_.png);
@@ -51,7 +51,7 @@ public:
         for (u32 k = 0; k < count; ++k)
             for (u32 y = 0; y < o_.height; ++y) {
                 const size_t to = (size_t(k / columns * o_.height + y) * columns + k % columns) * o_.width * 4;
-                std::copy_n(pictures_[k].display.begin() + size_t(y) * o_.width * 4, size_t(o_.width) * 4,
+                std::copy_n(pictures_[k].begin() + size_t(y) * o_.width * 4, size_t(o_.width) * 4,
                             sheet.begin() + long(to));
             }
         return writePng(o_.png, columns * o_.width, rows * o_.height, sheet);
@@ -59,7 +59,7 @@ public:
 
 private:
     const RenderOptions& o_;
-    std::vector<Picture> pictures_;
+    std::vector<std::vector<u8>> pictures_; ///< RGBA
 };
 
 double totalOf(const std::vector<PassTime>& passes)
@@ -91,8 +91,9 @@ Status renderPath(Renderer& renderer, const std::vector<PathKey>& path, const Re
     for (u32 k = 0; k < o.frames; ++k) {
         const double seconds = first + (o.frames > 1 ? length * k / (o.frames - 1) : 0.0);
         Picture picture = renderer.render(cameraAt(path, seconds), o.width, o.height, viewOf(o));
-        std::printf("Frame %u at %.3f s: %.1f ms for stage 4, 0 for stages 1 to 3\n", k, seconds,
-                    totalOf(picture.passes));
+        const SolveReport& report = renderer.solve();
+        std::printf("Frame %u at %.3f s: %.1f ms for stage 4, %.1f for stages 1 to 3\n", k, seconds,
+                    totalOf(picture.passes), report.cached ? 0.0 : totalOf(report.stages));
         char name[16];
         std::snprintf(name, sizeof(name), "%04u", k);
         if (const Status written = film.add(name, std::move(picture)); !written) return written;
@@ -130,7 +131,8 @@ Status renderDay(Renderer& renderer, Context& context, const Pack& pack, const C
             r.setEmission(o.emission);
         };
         set(renderer);
-        const SolveReport report = renderer.solve();
+        SolveReport report = renderer.solve();
+        for (u32 k = 1; k < o.sunSamples; ++k) report = renderer.refineSun();
         std::printf("%s: sun azimuth %.1f elevation %.1f, DNI %.0f, DHI %.0f; %u sweeps, residual %.2g, %.0f ms", time,
                     light->azimuthDeg, light->elevationDeg, light->dni, light->dhi, report.sweeps, report.residual,
                     totalOf(report.stages));

@@ -21,12 +21,15 @@ void main()
     const uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
     if (index >= rowCount) return;
     const uint row = rowFirst + index;
+#ifdef HELIO_LINEAR
+    const uint first = rows[rowFirst];
+#endif
     vec4 sum = vec4(0.0);
     for (uint k = rows[row]; k < rows[row + 1u]; ++k) {
         const uint column = columns[k];
         sum += factors[k] * radiosity[column];
 #ifdef HELIO_LINEAR
-        sum += moments[k - rows[rowFirst]].x * slopes[2u * column] + moments[k - rows[rowFirst]].y * slopes[2u * column + 1u];
+        sum += moments[k - first].x * slopes[2u * column] + moments[k - first].y * slopes[2u * column + 1u];
 #endif
     }
     irradiance[row] = sum;

@@ -275,6 +275,13 @@ std::vector<PassTime> Recorder::times()
     return times;
 }
 
+double totalTime(std::span<const PassTime> passes)
+{
+    double total = 0.0;
+    for (const PassTime& pass : passes) total += pass.milliseconds;
+    return total;
+}
+
 void Recorder::beginLabel(const std::string& name)
 {
     if (!beginLabel_) return;

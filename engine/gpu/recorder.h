@@ -45,6 +45,9 @@ struct PassTime
     double milliseconds = 0;
 };
 
+/// Milliseconds of all passes together.
+double totalTime(std::span<const PassTime> passes);
+
 /// One command buffer with what it needs until the device is done: descriptor pools, timestamps, a fence. Use two of
 /// them in turn to have two frames in flight. begin, record, submit, wait; begin waits by itself.
 class Recorder

@@ -101,19 +101,16 @@ private:
 };
 
 /// Normals go by the cofactors of the transform: n . (M^-1 s) |M| > 0 is light from s on the outside of a local n.
-glm::mat3 normalFromSun(const gpu::InstanceRecord& instance)
+glm::mat3 normalFromSun(const glm::mat3& world)
 {
-    const glm::mat3 rows{glm::vec3(instance.worldFromLocal[0]), glm::vec3(instance.worldFromLocal[1]),
-                         glm::vec3(instance.worldFromLocal[2])};
-    const glm::mat3 world = glm::transpose(rows);
     return glm::determinant(world) * glm::inverse(world);
 }
 
-bool isMirrored(const gpu::InstanceRecord& instance)
+/// The turn and stretch of an instance, without its place.
+glm::mat3 worldFromLocal(const gpu::InstanceRecord& instance)
 {
-    const glm::mat3 rows{glm::vec3(instance.worldFromLocal[0]), glm::vec3(instance.worldFromLocal[1]),
-                         glm::vec3(instance.worldFromLocal[2])};
-    return !(glm::determinant(rows) > 0.0f);
+    const auto& rows = instance.worldFromLocal;
+    return glm::transpose(glm::mat3(glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])));
 }
 
 void append(std::vector<gpu::DrawRecord>& draws, const gpu::DrawRecord& draw)
@@ -149,9 +146,10 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& i
                 for (u32 k = 0; k < chunk.draw.instanceCount; ++k) {
                     const gpu::InstanceRecord& instance = tile.instances[chunk.draw.firstInstance + k];
                     growPlaced(chunk.box, instance, local);
-                    chunk.normalFromSun.push_back(normalFromSun(instance));
+                    const glm::mat3 world = worldFromLocal(instance);
+                    chunk.normalFromSun.push_back(normalFromSun(world));
                     // What a mirror turns inside out is drawn whole, and so are its neighbours.
-                    if (isMirrored(instance)) chunk.facing = nullptr;
+                    if (!(glm::determinant(world) > 0.0f)) chunk.facing = nullptr;
                 }
                 chunks.push_back(std::move(chunk));
             }

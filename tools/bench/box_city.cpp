@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "city/base/hash.h"
+#include "city/pack/vertex_pack.h"
 
 namespace helio {
 
@@ -14,12 +15,6 @@ namespace {
 constexpr float kBay = 4.0f, kStorey = 3.2f; // m
 constexpr float kSpacing = 60.0f;            // m, of the buildings
 constexpr u32 kColour = 0xFFB0B8C0u;
-
-u32 packNormal(glm::vec3 n)
-{
-    const auto part = [](float v) { return u32(i32(std::lround(511.0f * v))) & 1023u; };
-    return part(n.x) | part(n.y) << 10 | part(n.z) << 20;
-}
 
 } // namespace
 

@@ -38,9 +38,7 @@ public:
     {
         // A changed limit, without effect here, tells the solver to work although the light is the same.
         renderer_.solveOptions() = {.maxSweeps = 100 + ++solves_ % 2, .exactSweeps = count, .warmStart = true};
-        double total = 0.0;
-        for (const PassTime& stage : renderer_.solve().stages) total += stage.milliseconds;
-        return total;
+        return totalTime(renderer_.solve().stages);
     }
 
     double timeSweep(CaseList::Figures& figures)

@@ -79,9 +79,7 @@ void printAudit(const EnergyAudit& audit)
 
 void printPicture(const Picture& picture)
 {
-    double total = 0.0;
-    for (const PassTime& pass : picture.passes) total += pass.milliseconds;
-    std::printf("  %-28s %9.2f ms\n", "4 forward shading, tone", total);
+    std::printf("  %-28s %9.2f ms\n", "4 forward shading, tone", totalTime(picture.passes));
 }
 
 std::string describeLight(const RenderOptions& o, const Daylight& light, const SolveReport& report)
@@ -93,12 +91,7 @@ std::string describeLight(const RenderOptions& o, const Daylight& light, const S
 
 Status writePictures(Renderer& renderer, const Camera& camera, const RenderOptions& o)
 {
-    ViewOptions view;
-    view.mode = o.mode;
-    view.picked = o.picked;
-    view.samples = o.samples;
-    view.smoothLight = o.smooth;
-    view.exposureStops = o.exposureStops;
+    ViewOptions view = viewOf(o);
     if (!o.png.empty()) {
         const Picture picture = renderer.render(camera, o.width, o.height, view);
         printPicture(picture);

@@ -41,6 +41,17 @@ std::string checkSun(const std::string& text, DaylightOptions& light)
 
 } // namespace
 
+ViewOptions viewOf(const RenderOptions& o)
+{
+    ViewOptions view;
+    view.mode = o.mode;
+    view.picked = o.picked;
+    view.samples = o.samples;
+    view.smoothLight = o.smooth;
+    view.exposureStops = o.exposureStops;
+    return view;
+}
+
 Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
 {
     RenderOptions o;

@@ -4,6 +4,7 @@
 
 #include "city/base/result.h"
 #include "city/base/types.h"
+#include "engine/view/renderer.h"
 #include "shaders/shared/view.h"
 #include "tools/render/daylight.h"
 #include "tools/render/table.h"
@@ -41,6 +42,9 @@ struct RenderOptions
     std::string dumpGraph; ///< file for the graphs that run, in DOT
     bool validate = false;
 };
+
+/// What a picture of these options shows.
+ViewOptions viewOf(const RenderOptions& options);
 
 /// Parses the command line. `done` is set when the program has nothing more to do (--help). Errors: one line each.
 Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done);

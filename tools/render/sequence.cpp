@@ -13,17 +13,6 @@ namespace {
 
 constexpr u32 kMinutesOfDay = 24 * 60;
 
-ViewOptions viewOf(const RenderOptions& o)
-{
-    ViewOptions view;
-    view.mode = o.mode;
-    view.picked = o.picked;
-    view.samples = o.samples;
-    view.smoothLight = o.smooth;
-    view.exposureStops = o.exposureStops;
-    return view;
-}
-
 /// Takes pictures one by one: files of their own, or places on a sheet that is written at the end.
 class Film
 {
@@ -62,13 +51,6 @@ private:
     std::vector<std::vector<u8>> pictures_; ///< RGBA
 };
 
-double totalOf(const std::vector<PassTime>& passes)
-{
-    double total = 0.0;
-    for (const PassTime& pass : passes) total += pass.milliseconds;
-    return total;
-}
-
 /// rms difference of E_indirect (solar) over its mean, weighted by area.
 double lagOf(const TileView& tile, const std::vector<glm::vec4>& seen, const std::vector<glm::vec4>& exact)
 {
@@ -93,7 +75,7 @@ Status renderPath(Renderer& renderer, const std::vector<PathKey>& path, const Re
         Picture picture = renderer.render(cameraAt(path, seconds), o.width, o.height, viewOf(o));
         const SolveReport& report = renderer.solve();
         std::printf("Frame %u at %.3f s: %.1f ms for stage 4, %.1f for stages 1 to 3\n", k, seconds,
-                    totalOf(picture.passes), report.cached ? 0.0 : totalOf(report.stages));
+                    totalTime(picture.passes), report.cached ? 0.0 : totalTime(report.stages));
         char name[16];
         std::snprintf(name, sizeof(name), "%04u", k);
         if (const Status written = film.add(name, std::move(picture)); !written) return written;
@@ -135,7 +117,7 @@ Status renderDay(Renderer& renderer, Context& context, const Pack& pack, const C
         for (u32 k = 1; k < o.sunSamples; ++k) report = renderer.refineSun();
         std::printf("%s: sun azimuth %.1f elevation %.1f, DNI %.0f, DHI %.0f; %u sweeps, residual %.2g, %.0f ms", time,
                     light->azimuthDeg, light->elevationDeg, light->dni, light->dhi, report.sweeps, report.residual,
-                    totalOf(report.stages));
+                    totalTime(report.stages));
         if (exact) {
             set(*exact);
             exact->solve();

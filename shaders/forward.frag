@@ -32,10 +32,11 @@ layout(location = 0) out vec4 oRadiance;
 // with the depth that the point's own plane has at the texel's centre (its depth there is what the raster stored), so the
 // test stays sharp at grazing light, where any constant bias would move shadows by metres. Where the plane falls away from
 // the sun the point's own depth is taken instead: beyond a concave edge there is another surface, not the plane.
-// across, along: derivatives of the point's position over the picture, m.
-float sunVisibility(float cosine, vec3 across, vec3 along)
+// plane: the normal of the point's plane, of any length.
+float sunVisibility(float cosine, vec3 plane)
 {
-    if (view.sunDirection.w == 0.0 || cosine <= 0.0) return 0.0;
+    // A loop of no rounds where the sun does not shine: software devices walk through a branch that no lane takes.
+    const bool faces = view.sunDirection.w != 0.0 && cosine > 0.0;
     const vec2 size = 1.0 / view.shadowStep;
     const vec4 point = vec4(vFromEye + params.eye.xyz, 1.0);
     vec2 at = vec2(dot(params.sunRow0, point), dot(params.sunRow1, point));
@@ -48,15 +49,10 @@ float sunVisibility(float cosine, vec3 across, vec3 along)
     const float depth = dot(params.sunRow2, point);
 
     // Depth a texel, in x and in y, along the plane.
-    const vec3 texelX = size.x * params.sunRow0.xyz;
-    const vec3 texelY = -size.y * (params.sunRow1.xyz + view.sunShear * params.sunRow0.xyz);
-    const vec2 du = vec2(dot(texelX, across), dot(texelX, along));
-    const vec2 dv = vec2(dot(texelY, across), dot(texelY, along));
-    const vec2 dz = vec2(dot(params.sunRow2.xyz, across), dot(params.sunRow2.xyz, along));
-    const float determinant = du.x * dv.y - du.y * dv.x;
-    vec2 slope = vec2(dz.x * dv.y - dz.y * dv.x, du.x * dz.y - du.y * dz.x) / determinant;
     const float steepest = 10.0 / view.depthRange;
-    slope = determinant == 0.0 ? vec2(0.0) : clamp(slope, -steepest, steepest);
+    const float across = dot(plane, view.shadowDown.xyz);
+    vec2 slope = vec2(dot(plane, view.shadowRight.xyz), dot(plane, view.shadowUp.xyz)) / across;
+    slope = across == 0.0 ? vec2(0.0) : clamp(slope, -steepest, steepest);
     const float bias = (0.002 + 0.25 * view.shadowTexel) / view.depthRange + 0.02 * (abs(slope.x) + abs(slope.y));
 
     // The samples stay inside the view: beyond its edge there is no depth to compare with.
@@ -64,13 +60,14 @@ float sunVisibility(float cosine, vec3 across, vec3 along)
     const vec2 first = floor(from); // of three texels along each axis
     const vec2 share = from - first;
     float sum = 0.0;
-    for (int k = 0; k < 4; ++k) {
+    const int gathers = faces ? 4 : 0;
+    for (int k = 0; k < gathers; ++k) {
         const vec2 corner = first + vec2(k & 1, k >> 1);
         // Order of a gather: (0, 1), (1, 1), (1, 0), (0, 0).
         const vec4 stored = textureGather(shadow, vec3((corner + 1.0) * view.shadowStep, layer), 0);
         const vec2 d = corner + 0.5 - texel;
-        const float plane = dot(slope, d);
-        const vec4 reference = depth - bias + min(plane + vec4(slope.y, slope.x + slope.y, slope.x, 0.0), 0.0);
+        const float inPlane = dot(slope, d);
+        const vec4 reference = depth - bias + min(inPlane + vec4(slope.y, slope.x + slope.y, slope.x, 0.0), 0.0);
         const vec4 lit = vec4(greaterThanEqual(stored, reference));
         const vec2 row = mix(lit.wx, lit.zy, share.x);
         sum += mix(row.x, row.y, share.y);
@@ -89,8 +86,7 @@ vec3 hashColour(uint id)
 void main()
 {
     // Polygons are drawn from both sides: the normal follows the side that is seen.
-    const vec3 across = dFdx(vFromEye), along = dFdy(vFromEye);
-    vec3 seen = cross(across, along);
+    vec3 seen = cross(dFdx(vFromEye), dFdy(vFromEye));
     seen = dot(seen, vFromEye) > 0.0 ? -seen : seen;
     vec3 normal = normalize(vNormal);
     normal = dot(normal, seen) < 0.0 ? -normal : normal;
@@ -101,7 +97,7 @@ void main()
     } else if (kMode == kModeDepth) {
         oRadiance = vec4(length(vFromEye));
     } else if (kMode == kModeSunVisibility) {
-        oRadiance = vec4(sunVisibility(cosine, across, along));
+        oRadiance = vec4(sunVisibility(cosine, seen));
     } else if (kMode == kModeSun) {
         oRadiance = readVec4(sun, vPatch);
     } else if (kMode == kModeSky) {
@@ -115,7 +111,7 @@ void main()
     } else if (kMode == kModeAlbedo) {
         oRadiance = vec4(vAlbedo, 1.0);
     } else {
-        const vec3 direct = view.sunLight.rgb * (max(cosine, 0.0) * sunVisibility(cosine, across, along));
+        const vec3 direct = view.sunLight.rgb * (max(cosine, 0.0) * sunVisibility(cosine, seen));
         const vec3 fromSky = kInterpolate ? vSky : readVec4(sky, vPatch).rgb;
         const vec3 bounced = kInterpolate ? vIndirect : readVec4(indirect, vPatch).rgb;
         vec3 radiance = vAlbedo * (direct + fromSky * view.skyTint.rgb + bounced);

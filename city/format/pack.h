@@ -13,7 +13,7 @@
 
 namespace helio {
 
-inline constexpr u32 kPackVersion = 2;
+inline constexpr u32 kPackVersion = 3;
 
 /// What the index of a pack says. Little endian JSON text with a checksum line; see city/format/README.md.
 struct PackIndex
@@ -60,6 +60,9 @@ struct TileView
     std::span<const gpu::ChildSlopeRecord> childSlopes;
     /// One a sky link, or empty: the middle of what the patch sees of the sky patch, two snorm16 (SkyTable::offset).
     std::span<const u32> skyOffsets;
+    /// One a patch, or empty: the error of its E_indirect that the bake expects, rms, as a share of the scene's mean
+    /// E_indirect.
+    std::span<const float> patchErrors;
 };
 
 /// What the links take in the file, bytes; rows not counted.

@@ -33,9 +33,10 @@ enum class SectionId : u32
     SurfaceNames,
     BuildingIds,
     ChildSlopes,
-    SkyOffsets
+    SkyOffsets,
+    PatchErrors
 };
-inline constexpr u32 kSectionCount = u32(SectionId::SkyOffsets);
+inline constexpr u32 kSectionCount = u32(SectionId::PatchErrors);
 
 /// Calls visit(id, name, span) for every section of a TileView (const or not), by rising id.
 template <class View, class Visit> void forEachSection(View& tile, Visit&& visit)
@@ -65,6 +66,7 @@ template <class View, class Visit> void forEachSection(View& tile, Visit&& visit
     visit(SectionId::BuildingIds, "building ids", tile.buildingIds);
     visit(SectionId::ChildSlopes, "child slopes", tile.childSlopes);
     visit(SectionId::SkyOffsets, "sky offsets", tile.skyOffsets);
+    visit(SectionId::PatchErrors, "patch errors", tile.patchErrors);
 }
 
 /// How a section's bytes are stored.

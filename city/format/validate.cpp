@@ -41,7 +41,8 @@ public:
         using Rule = Status (TileChecker::*)() const;
         for (const Rule rule :
              {&TileChecker::checkNames, &TileChecker::checkPatches, &TileChecker::checkNodes, &TileChecker::checkFamily,
-              &TileChecker::checkOutlines, &TileChecker::checkLinks, &TileChecker::checkSky, &TileChecker::checkMeshes})
+              &TileChecker::checkOutlines, &TileChecker::checkLinks, &TileChecker::checkSky,
+              &TileChecker::checkPatchErrors, &TileChecker::checkMeshes})
             if (Status status = (this->*rule)(); !status) return status;
         return Nothing{};
     }
@@ -272,6 +273,17 @@ private:
             return status;
         return checkMatrix(SectionId::SkyColumns, t_.skyRows, t_.skyColumns, t_.skyPatches.size(),
                            SectionId::SkyFactors, t_.skyFactors);
+    }
+
+    Status checkPatchErrors() const
+    {
+        if (!t_.patchErrors.empty() && t_.patchErrors.size() != t_.patches.size())
+            return fail(SectionId::PatchErrors, t_.patchErrors, 0, t_.patchErrors.size(), " errors for ",
+                        t_.patches.size(), " patches");
+        for (u64 i = 0; i < t_.patchErrors.size(); ++i)
+            if (!(std::isfinite(t_.patchErrors[i]) && t_.patchErrors[i] >= 0.0f))
+                return fail(SectionId::PatchErrors, t_.patchErrors, i, "error ", t_.patchErrors[i], " of patch ", i);
+        return Nothing{};
     }
 
     Status checkMeshes() const

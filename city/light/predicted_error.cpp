@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/light/predicted_error.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 #include "city/base/check.h"
 #include "city/light/light_flow.h"
@@ -14,6 +17,7 @@ namespace {
 
 /// Error of links / their difference to those of a fourfold epsilon, which err about 2.2 times as much.
 constexpr double kLinkErrorOfDifference = 0.5;
+constexpr double kShareOfLight = 0.5;      // of the square of a patch's error: what goes with its light
 constexpr double kErrorOfUnresolved = 0.5; // of E_indirect / SplitRecord::unresolved, where no cut tells it
 constexpr u32 kSweeps = 5;                 // leave about a thousandth of the indirect light, alike in all solutions
 constexpr u32 kRaysPerSun = 16;
@@ -51,22 +55,42 @@ std::vector<glm::dvec4> solve(const NodeTree& tree, const LinkTable& links, std:
     return averaged(tree, split.wholeOf, std::span(irradiance).first(count));
 }
 
-/// Per channel: area-weighted rms of the difference over the mean of `a`, both per whole patch.
-glm::dvec4 difference(std::span<const double> area, std::span<const glm::dvec4> a, std::span<const glm::dvec4> b)
+/// Errors, per whole patch and per channel, squared, as a share of the mean of a solution.
+struct Errors
 {
-    glm::dvec4 squares(0.0), sum(0.0);
-    double total = 0.0;
-    for (size_t i = 0; i < area.size(); ++i) {
-        const glm::dvec4 d = a[i] - b[i];
-        squares += area[i] * d * d;
-        sum += area[i] * a[i];
-        total += area[i];
+    std::vector<glm::dvec4> squares;
+
+    /// `scale` x the difference of two solutions. Channels without light have no error.
+    Errors(std::span<const double> area, std::span<const glm::dvec4> a, std::span<const glm::dvec4> b, double scale)
+        : squares(area.size(), glm::dvec4(0.0))
+    {
+        glm::dvec4 sum(0.0);
+        double total = 0.0;
+        for (size_t i = 0; i < area.size(); ++i) {
+            sum += area[i] * a[i];
+            total += area[i];
+        }
+        for (u32 c = 0; c < 4; ++c)
+            for (size_t i = 0; i < area.size() && sum[c] > 0.0; ++i) {
+                const double share = scale * (a[i][c] - b[i][c]) * total / sum[c];
+                squares[i][c] = share * share;
+            }
     }
-    glm::dvec4 result(0.0);
-    for (u32 c = 0; c < 4; ++c)
-        if (sum[c] > 0.0) result[c] = std::sqrt(squares[c] * total) / sum[c];
-    return result;
-}
+    /// The same on every patch.
+    Errors(size_t count, double share) : squares(count, glm::dvec4(share * share)) {}
+
+    /// Area-weighted rms, a channel.
+    glm::dvec4 rms(std::span<const double> area) const
+    {
+        glm::dvec4 sum(0.0);
+        double total = 0.0;
+        for (size_t i = 0; i < area.size(); ++i) {
+            sum += area[i] * squares[i];
+            total += area[i];
+        }
+        return total > 0.0 ? glm::sqrt(sum / total) : glm::dvec4(0.0);
+    }
+};
 
 /// Rms over the suns.
 double overSuns(const glm::dvec4& error)
@@ -100,19 +124,27 @@ PredictedError predictError(const NodeTree& tree, const LinkTable& links, const 
         if (!tree.patches[i].covered) area[split.wholeOf[i]] += tree.patches[i].area;
     }
     const std::vector<glm::dvec4> fine = solve(tree, links, direct, split, alone, jobs);
-    const glm::dvec4 byLinks =
-        kLinkErrorOfDifference * difference(area, fine, solve(tree, coarse, direct, split, alone, jobs));
+    const Errors ofLinks(area, fine, solve(tree, coarse, direct, split, alone, jobs), kLinkErrorOfDifference);
     const double left = split.unresolved * split.unresolved,
                  resolved = split.unresolvedWhole * split.unresolvedWhole - left;
-    glm::dvec4 byPatches(kErrorOfUnresolved * split.unresolved);
-    if (resolved > left)
-        byPatches =
-            std::sqrt(left / resolved) * difference(area, fine, solve(tree, links, direct, split, split.wholeOf, jobs));
+    const Errors ofPatches =
+        resolved > left
+            ? Errors(area, fine, solve(tree, links, direct, split, split.wholeOf, jobs), std::sqrt(left / resolved))
+            : Errors(count, kErrorOfUnresolved * split.unresolved);
+    const glm::dvec4 byLinks = ofLinks.rms(area), byPatches = ofPatches.rms(area);
     PredictedError error;
     error.links = overSuns(byLinks);
     error.patches = overSuns(byPatches);
     error.total = std::hypot(error.links, error.patches);
     error.sky = std::hypot(byLinks.w, byPatches.w);
+    const Errors light(area, fine, std::vector<glm::dvec4>(count, glm::dvec4(0.0)), 1.0);
+    const glm::dvec4 ofLight = light.rms(area);
+    const glm::dvec4 share = (byLinks * byLinks + byPatches * byPatches) / glm::max(ofLight * ofLight, 1e-30);
+    for (const u32 whole : split.wholeOf) {
+        const glm::dvec4 own = ofLinks.squares[whole] + ofPatches.squares[whole];
+        const glm::dvec4 square = glm::mix(own, share * light.squares[whole], kShareOfLight);
+        error.ofPatch.push_back(float(overSuns(glm::sqrt(square))));
+    }
     return error;
 }
 

@@ -26,6 +26,7 @@ struct PackContent
     std::string nodeNames, surfaceNames, buildingIds; ///< '\n'-terminated names
     std::vector<gpu::ChildSlopeRecord> childSlopes;
     std::vector<u32> skyOffsets;
+    std::vector<float> patchErrors;
 
     /// Spans of the vectors, valid until one of them changes.
     TileView view() const
@@ -54,7 +55,8 @@ struct PackContent
                 .surfaceNames = surfaceNames,
                 .buildingIds = buildingIds,
                 .childSlopes = childSlopes,
-                .skyOffsets = skyOffsets};
+                .skyOffsets = skyOffsets,
+                .patchErrors = patchErrors};
     }
 };
 

@@ -104,6 +104,7 @@ public:
         c_.skyColumns = std::move(light.sky.column);
         c_.skyFactors = std::move(light.sky.factor);
         c_.skyOffsets = std::move(light.sky.offset);
+        c_.patchErrors = std::move(light.stats.predicted.ofPatch);
         addStaticMesh();
         addAssets();
         c_.nodeNames = joinNames(tree_.names);

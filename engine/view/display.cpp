@@ -53,6 +53,12 @@ gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState
     v.shadowStep = 1.0f / glm::vec2(sun.width, sun.height);
     v.shadowTexel = float(std::max(sun.texelX, sun.texelY));
     v.sunShear = sun.shear;
+    const glm::dmat3 rows = glm::transpose(glm::dmat3(sun.gridFromWorld));
+    const glm::dmat3 worldFromTexel = glm::inverse(glm::transpose(glm::dmat3(
+        double(sun.width) * rows[0], -double(sun.height) * (rows[1] + double(sun.shear) * rows[0]), rows[2])));
+    v.shadowRight = glm::vec4(-worldFromTexel[0], 0.0);
+    v.shadowUp = glm::vec4(-worldFromTexel[1], 0.0);
+    v.shadowDown = glm::vec4(worldFromTexel[2], 0.0);
     v.depthRange = float(sun.depthRange);
     v.emissionScale = light.emission ? 1.0f : 0.0f;
 

@@ -37,4 +37,19 @@ std::vector<glm::vec4> linksOfPatch(const TileView& tile, u32 picked)
     return values;
 }
 
+std::vector<glm::vec4> expectedErrors(const TileView& tile, std::span<const glm::vec4> indirect)
+{
+    if (tile.patchErrors.empty()) return {};
+    HELIO_CHECK(indirect.size() == tile.patches.size(), indirect.size(), " of ", tile.patches.size(), " patches");
+    double sum = 0.0, area = 0.0;
+    for (size_t i = 0; i < indirect.size(); ++i) {
+        sum += double(tile.patches[i].area) * double(indirect[i].a);
+        area += double(tile.patches[i].area);
+    }
+    const double mean = area > 0.0 ? sum / area : 0.0;
+    std::vector<glm::vec4> values;
+    for (const float share : tile.patchErrors) values.emplace_back(float(double(share) * mean), 0.0f, 0.0f, 1.0f);
+    return values;
+}
+
 } // namespace helio

@@ -85,10 +85,16 @@ struct Renderer::Impl
         std::vector<glm::vec4> shown;
         if (options.mode == gpu::kModeLevel) shown = patchLevels(view);
         if (options.mode == gpu::kModeLinks) shown = linksOfPatch(view, options.picked);
+        const auto read = [&](const Buffer& from) {
+            return asItems<glm::vec4>(download(context, from, 0, u64(tile.patchCount) * sizeof(glm::vec4)));
+        };
+        if (options.mode == gpu::kModeError) {
+            shown = expectedErrors(view, read(solver.indirect()));
+            HELIO_CHECK(shown.size() == tile.patchCount, "the pack has no expected errors");
+        }
         if (options.mode == gpu::kModeResidual) {
-            const u64 bytes = u64(tile.patchCount) * sizeof(glm::vec4);
-            shown = asItems<glm::vec4>(download(context, solver.radiosity(), 0, bytes));
-            const auto before = asItems<glm::vec4>(download(context, solver.radiosityBefore(), 0, bytes));
+            shown = read(solver.radiosity());
+            const std::vector<glm::vec4> before = read(solver.radiosityBefore());
             for (size_t i = 0; i < shown.size(); ++i) shown[i] = glm::vec4(std::abs(shown[i].a - before[i].a));
         }
         largestValue = 1e-30;

@@ -20,6 +20,7 @@ HELIO_CONSTANT uint kModeAlbedo = 8u;
 HELIO_CONSTANT uint kModeLevel = 9u;       // ancestors in the tree
 HELIO_CONSTANT uint kModeLinks = 10u;      // form factor from a picked patch, a square metre
 HELIO_CONSTANT uint kModeResidual = 11u;   // what the last sweep changed of B, W/m2
+HELIO_CONSTANT uint kModeError = 12u;      // expected error of E_indirect, W/m2
 
 HELIO_CONSTANT uint kForwardView = 0u;     // ViewRecord
 HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array
@@ -53,6 +54,9 @@ struct ViewRecord {
     vec4 glow;             // radiance added around the sun
     vec4 ground;           // radiance of the ground beyond the scene; w = height of the eye above it, m
     vec4 eye;              // m
+    vec4 shadowRight;      // m of the world, less: a texel of the sun raster to the right
+    vec4 shadowUp;         // likewise, a row on
+    vec4 shadowDown;       // m of the world: from depth 0 to 1
     vec2 gridSize;         // views in x and y
     vec2 shadowStep;       // texel of the sun raster in texture coordinates
     float shadowTexel;     // m, the longer side
@@ -60,7 +64,7 @@ struct ViewRecord {
     float depthRange;      // m of light space from depth 0 to 1
     float emissionScale;
 };
-HELIO_SIZE(ViewRecord, 224);
+HELIO_SIZE(ViewRecord, 272);
 
 // tone: kToneSamples x kToneSamples samples a pixel, tone mapped each, averaged, sRGB
 HELIO_CONSTANT uint kToneGroup = 8u;

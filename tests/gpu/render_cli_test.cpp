@@ -209,7 +209,7 @@ TEST_F(RenderCli, RefusesDamagedPacks)
     std::string flipped = tile, version = tile, indexVersion = index;
     flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
     version[8] = 9;
-    indexVersion[indexVersion.find("2\n")] = '9';
+    indexVersion[indexVersion.find(concat(kPackVersion, "\n"))] = '9';
     struct Damage
     {
         std::string index, tile;
@@ -272,6 +272,19 @@ TEST_F(RenderCli, WritesPicturesOfTheSizeAskedFor)
     }
 }
 
+TEST_F(RenderCli, APackWithoutExpectedErrorsShowsNone)
+{
+    const std::string scene = HELIO_SCENES "/twobox";
+    ASSERT_EQ(test::runProgram(HELIO_BAKE,
+                               concat(scene, ".obj --surfaces ", scene, ".csv --rays 16 --method paper -o paper"),
+                               temp_.path())
+                  .exitCode,
+              0);
+    expectRefusal("paper --view error -o e.png", "paper: the pack says nothing of errors");
+    ASSERT_EQ(render("paper --size 64x36 --samples 1 --sun-texel 0.25 --table t.csv").exitCode, 0);
+    EXPECT_EQ(bytesOf("t.csv").find("E_indirect_error"), std::string::npos);
+}
+
 TEST_F(RenderCli, TableHasARowAPatch)
 {
     // Enough sweeps that E_indirect and B belong to the same solution.
@@ -286,15 +299,16 @@ TEST_F(RenderCli, TableHasARowAPatch)
     for (const char* word : {"m2", "W/m2", "residual ", "after 40 sweeps", "DNI 700", "DHI 90"})
         EXPECT_NE(lines[0].find(word), std::string::npos) << word << " in " << lines[0];
     EXPECT_EQ(lines[1], "patch,building,area,E_sun_r,E_sun_g,E_sun_b,E_sun_solar,E_sky_r,E_sky_g,E_sky_b,E_sky_solar,"
-                        "E_indirect_r,E_indirect_g,E_indirect_b,E_indirect_solar,B_r,B_g,B_b,B_solar");
+                        "E_indirect_r,E_indirect_g,E_indirect_b,E_indirect_solar,B_r,B_g,B_b,B_solar,E_indirect_error");
     double largestIndirect = 0.0;
     for (u32 i = 0; i < pack->patchCount(); ++i) {
         const std::vector<std::string> fields = split(lines[2 + i], ',');
-        ASSERT_EQ(fields.size(), 19u) << lines[2 + i];
+        ASSERT_EQ(fields.size(), 20u) << lines[2 + i];
         const gpu::PatchRecord& patch = pack->tile().patches[i];
         EXPECT_EQ(fields[0], std::to_string(i));
         EXPECT_EQ(std::stol(fields[1]), patch.building == gpu::kNone ? -1 : long(patch.building));
         EXPECT_EQ(std::stof(fields[2]), patch.area);
+        EXPECT_GT(std::stod(fields[19]), 0.0);
         for (u32 c = 0; c < 4; ++c) {
             const auto at = [&](u32 quantity) { return std::stod(fields[3 + 4 * quantity + c]); };
             EXPECT_LE(at(0), 700.0 * (1 + 1e-6)) << "no patch gets more than the sun sends";

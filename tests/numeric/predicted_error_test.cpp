@@ -31,24 +31,33 @@ NodeTree plates(u32 count, double rho)
     return makeTree(faces);
 }
 
-double rmsOfSun(const NodeTree& tree, const LightBake& bake, const std::vector<glm::dvec4>& direct,
-                const CsvTable& reference, const char* column, const char* error)
+/// E_indirect of each face in a channel, under the sun of the references: azimuth 150, elevation 40 degrees, 800 W/m2.
+std::vector<double> indirectOfFaces(const NodeTree& tree, const LightBake& bake, u32 channel, size_t faces)
 {
+    const double degree = std::numbers::pi / 180.0;
+    const std::vector<double> share = raySun(tree, Visibility(tree), sunDirection(150 * degree, 40 * degree), 256);
+    std::vector<glm::dvec4> direct(tree.patchCount());
+    for (size_t i = 0; i < direct.size(); ++i) direct[i] = glm::dvec4(800.0 * share[i]);
     const std::vector<glm::dvec4> none(tree.patchCount(), glm::dvec4(0.0));
     const Solution s = solveLight(tree, bake.links, direct, none, {.residual = 1e-5});
+    std::vector<double> mean(faces, 0.0), area(faces, 0.0);
+    for (u32 i = 0; i < tree.patchCount(); ++i) {
+        mean[tree.patches[i].sourceFace] += tree.patches[i].area * s.indirect[i][glm::length_t(channel)];
+        area[tree.patches[i].sourceFace] += tree.patches[i].area;
+    }
+    for (size_t f = 0; f < faces; ++f) mean[f] /= area[f];
+    return mean;
+}
+
+double rmsOfSun(const NodeTree& tree, const LightBake& bake, const CsvTable& reference)
+{
     double sum = 0.0;
-    for (u32 c = 0; c < 3; ++c) {
-        std::vector<double> mean(reference.rows, 0.0), area(reference.rows, 0.0);
-        for (u32 i = 0; i < tree.patchCount(); ++i) {
-            mean[tree.patches[i].sourceFace] += tree.patches[i].area * s.indirect[i][glm::length_t(c)];
-            area[tree.patches[i].sourceFace] += tree.patches[i].area;
-        }
-        for (size_t f = 0; f < mean.size(); ++f) mean[f] /= area[f];
-        sum += compare(reference.column("area"), mean, reference.column(std::string(column) + "rgb"[c]),
-                       reference.column(error), std::vector<bool>(reference.rows, true))
+    for (u32 c = 0; c < 3; ++c)
+        sum += compare(reference.column("area"), indirectOfFaces(tree, bake, c, reference.rows),
+                       reference.column(std::string("sun_ind_") + "rgb"[c]), reference.column("sun_ind_se_g"),
+                       std::vector<bool>(reference.rows, true))
                    .rms /
                3.0;
-    }
     return sum;
 }
 
@@ -69,6 +78,15 @@ TEST(PredictedError, HalfTheDifferenceThatCoarseLinksMake)
     EXPECT_NEAR(e.sky, expected, 1e-3 * expected);
     EXPECT_EQ(e.patches, 0.0);
     EXPECT_NEAR(e.total, e.links, 1e-12);
+    // A patch: half its own difference, half the rms of all in proportion to its light, in squares.
+    const double mean = 0.5 * (fine + 0.2 * fine), square = 0.5 * (0.04 + 1.0) * fine * fine;
+    const double own1 = 0.5 * d1 / mean, own0 = 0.5 * d0 / mean;
+    const double light1 = expected * expected * fine * fine / square;
+    ASSERT_EQ(e.ofPatch.size(), 2u);
+    EXPECT_NEAR(e.ofPatch[1], std::sqrt(0.5 * (own1 * own1 + light1)), 2e-3 * expected);
+    EXPECT_NEAR(e.ofPatch[0], std::sqrt(0.5 * (own0 * own0 + 0.04 * light1)), 2e-3 * expected);
+    EXPECT_NEAR(0.5 * (double(e.ofPatch[0]) * e.ofPatch[0] + double(e.ofPatch[1]) * e.ofPatch[1]), e.total * e.total,
+                1e-6 * e.total * e.total);
 }
 
 TEST(PredictedError, PartsThatSendAlikeTellWhatPatchesHide)
@@ -83,6 +101,38 @@ TEST(PredictedError, PartsThatSendAlikeTellWhatPatchesHide)
     EXPECT_NEAR(e.patches, 1.0 / 3.0, 1e-7); // factors are floats
     // Where the cuts resolved next to nothing the plan's own figure counts, by half.
     EXPECT_NEAR(predictError(tree, links, links, direct, {{0, 0, 1}, 0.1, 0.11}, 1).patches, 0.05, 1e-12);
+}
+
+TEST(PredictedError, ErrorBarsOfPatchesHoldOnFourBuildings)
+{
+    const std::string base = std::string(HELIO_TEST_DATA) + "/scenes/S";
+    const CsvTable reference = readCsvTable(base + ".reference.csv");
+    const Result<ShapeTree> shapes = readSurfaces(base + ".obj", base + ".csv");
+    ASSERT_TRUE(shapes.ok()) << shapes.error().message;
+    NodeTreeBuild build = buildNodes(shapes.value(), {});
+    const LightBake bake = bakeLight(build, {}, {});
+    const NodeTree& tree = build.tree;
+    const std::vector<double> mean = indirectOfFaces(tree, bake, 1, reference.rows);
+    const std::vector<double>&truth = reference.column("sun_ind_g"), &noise = reference.column("sun_ind_se_g");
+    std::vector<double> expected(reference.rows, 0.0);
+    double light = 0.0, area = 0.0;
+    for (size_t f = 0; f < reference.rows; ++f) {
+        light += reference.column("area")[f] * truth[f];
+        area += reference.column("area")[f];
+    }
+    for (u32 i = 0; i < tree.patchCount(); ++i)
+        expected[tree.patches[i].sourceFace] = double(bake.stats.predicted.ofPatch[i]) * light / area;
+    double within1 = 0.0, within2 = 0.0;
+    for (size_t f = 0; f < reference.rows; ++f) {
+        const double bar = std::hypot(expected[f], noise[f]), off = std::abs(mean[f] - truth[f]);
+        within1 += off <= bar ? reference.column("area")[f] / area : 0.0;
+        within2 += off <= 2.0 * bar ? reference.column("area")[f] / area : 0.0;
+    }
+    std::printf("within one error bar %.1f %% of the area, within two %.1f %%\n", 100 * within1, 100 * within2);
+    // Of a normal distribution 68 and 95 %. Bars half as long would hold 38 and 68, twice as long 95 and 100.
+    EXPECT_GT(within1, 0.55);
+    EXPECT_LT(within1, 0.85);
+    EXPECT_GT(within2, 0.90);
 }
 
 TEST(PredictedError, DoesNotDependOnTheNumberOfThreads)
@@ -103,6 +153,7 @@ TEST(PredictedError, DoesNotDependOnTheNumberOfThreads)
     EXPECT_EQ(of[0].sky, of[1].sky);
     EXPECT_EQ(of[0].links, of[1].links);
     EXPECT_EQ(of[0].patches, of[1].patches);
+    EXPECT_EQ(of[0].ofPatch, of[1].ofPatch);
 }
 
 TEST(PredictedError, IsWithinAFactorOfTwoOfTheMeasuredOneOnFourBuildings)
@@ -118,12 +169,7 @@ TEST(PredictedError, IsWithinAFactorOfTwoOfTheMeasuredOneOnFourBuildings)
         NodeTreeBuild build = buildNodes(shapes.value(), {});
         const LightBake bake = bakeLight(build, {}, options);
         const u32 n = build.tree.patchCount();
-        const Visibility visibility(build.tree);
-        const double degree = std::numbers::pi / 180.0;
-        const std::vector<double> share = raySun(build.tree, visibility, sunDirection(150 * degree, 40 * degree), 256);
-        std::vector<glm::dvec4> sun(n);
-        for (u32 i = 0; i < n; ++i) sun[i] = glm::dvec4(800.0 * share[i]);
-        const double bySun = rmsOfSun(build.tree, bake, sun, reference, "sun_ind_", "sun_ind_se_g");
+        const double bySun = rmsOfSun(build.tree, bake, reference);
         const PredictedError& e = bake.stats.predicted;
         std::printf("%u patches: predicted %.2f %% (links %.2f, patches %.2f), sun %.2f %%\n", n, 100 * e.total,
                     100 * e.links, 100 * e.patches, 100 * bySun);

@@ -76,6 +76,7 @@ const Screen kScreens[] = {
      {.mode = gpu::kModeLinks, .picked = 700},
      kDisplayTolerance},
     {"city_residual.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeResidual}, kDisplayTolerance},
+    {"city_error.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeError}, kDisplayTolerance},
     {"city_radiosity.exr", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeRadiosity}, kRadiosityTolerance},
     {"city_final.png", TestPack::City, kCityCamera, 215, 35, {.samples = 2}, kDisplayTolerance},
     {"city_final_plain.png",

@@ -157,9 +157,9 @@ TEST_F(BakeCli, RefusesDamagedPacks)
     EXPECT_EQ(bake("info good").exitCode, 0);
     const std::string index = *readTextFile(temp_ / "good/index"), tile = *readTextFile(temp_ / "good/tile-0000");
     std::string flipped = tile, version = tile, indexVersion = index;
-    flipped[tile.size() / 2] = char(flipped[tile.size() / 2] ^ 4);
-    version[8] = 3;
-    indexVersion.replace(indexVersion.find("2\n"), 1, "3");
+    flipped.back() = char(flipped.back() ^ 4); // the last section ends the file
+    version[8] = 9;
+    indexVersion.replace(indexVersion.find(concat(kPackVersion, "\n")), 1, "9");
     struct Damage
     {
         std::string index, tile;
@@ -168,7 +168,7 @@ TEST_F(BakeCli, RefusesDamagedPacks)
     for (const Damage& damage :
          {Damage{index, tile.substr(0, tile.size() - 1), "its header says"},
           Damage{index, tile.substr(0, 40), "ends inside the header"}, Damage{index, flipped, "the checksum"},
-          Damage{index, version, "version 3"}, Damage{indexVersion, tile, "version 3"},
+          Damage{index, version, "version 9"}, Damage{indexVersion, tile, "version 9"},
           Damage{index.substr(0, 99), tile, "checksum line"}, Damage{"{}", tile, "this is not the index"}}) {
         std::filesystem::create_directory(temp_ / "p");
         put("p/index", damage.index);

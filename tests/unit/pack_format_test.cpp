@@ -248,10 +248,10 @@ TEST(PackFormat, ExtraBytesAreRejected)
 TEST(PackFormat, AnotherVersionIsNamed)
 {
     std::vector<std::byte> bytes = encodeTile(samplePack().view()).bytes;
-    bytes[8] = std::byte{3};
+    bytes[8] = std::byte{4};
     sealTable(bytes);
     EXPECT_EQ(readCopy(bytes).error().message,
-              "tile: byte 8: version 3 of the format, this program reads version 2; bake the pack again");
+              "tile: byte 8: version 4 of the format, this program reads version 3; bake the pack again");
 }
 
 TEST(PackFormat, AForgedTableIsRejected)
@@ -349,9 +349,9 @@ TEST(PackIndexText, TruncatedOrFlippedIsRejected)
 TEST(PackIndexText, AnotherVersionIsNamed)
 {
     std::string text = encodeIndex(samplePack().index, {1, 2});
-    text.replace(text.find("2\n"), 1, "9");
+    text.replace(text.find(concat(kPackVersion, "\n")), 1, "9");
     EXPECT_EQ(decodeIndex(text, "index").error().message,
-              "index: byte 16: version 9 of the format, this program reads version 2; bake the pack again");
+              "index: byte 16: version 9 of the format, this program reads version 3; bake the pack again");
 }
 
 /// Puts the right checksum into the last line.

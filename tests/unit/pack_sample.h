@@ -52,6 +52,7 @@ inline PackContent samplePack()
     c.skyRows = {0, 1, 2, 3};
     c.skyColumns = {0, 0, 0};
     c.skyFactors = {0.5f, 0.5f, 0.6f};
+    c.patchErrors = {0.01f, 0.02f, 0.5f};
     c.vertices = {{{0, 0, 0}, 0, 0, 0xFF000000u}, {{1, 0, 0}, 0, 0, 0xFF000000u}, {{1, 0, 1}, 0, 0, 0xFF000000u},
                   {{1, 1, 0}, 2, 0, 0xFF000000u}, {{2, 1, 0}, 2, 0, 0xFF000000u}, {{2, 0, 0}, 2, 0, 0xFF000000u},
                   {{0, 0, 0}, 0, 5, 0xFFFFFFFFu}, {{1, 0, 0}, 0, 5, 0xFFFFFFFFu}, {{0, 1, 0}, 0, 5, 0xFFFFFFFFu}};

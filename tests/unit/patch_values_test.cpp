@@ -62,6 +62,21 @@ TEST(Legend, LiesInACornerAndLeavesSmallPicturesAlone)
     for (const u8 byte : small.display) EXPECT_EQ(byte, 77);
 }
 
+TEST(PatchValues, ExpectedErrorsAreSharesOfTheMeanOfAllLight)
+{
+    TileBuilder b;
+    b.patch({0, 0, 1}, 1.0f, glm::vec4(0.5f));
+    b.patch({0, 0, 1}, 3.0f, glm::vec4(0.5f));
+    TileView tile = b.view();
+    const std::vector<glm::vec4> indirect{{9, 9, 9, 20}, {9, 9, 9, 40}}; // mean 35 in the solar channel
+    EXPECT_TRUE(expectedErrors(tile, indirect).empty()) << "the pack knows none";
+    const std::vector<float> shares{0.1f, 0.02f};
+    tile.patchErrors = shares;
+    const std::vector<glm::vec4> errors = expectedErrors(tile, indirect);
+    EXPECT_FLOAT_EQ(errors[0].x, 3.5f);
+    EXPECT_FLOAT_EQ(errors[1].x, 0.7f);
+}
+
 } // namespace
 
 } // namespace helio

@@ -144,6 +144,10 @@ int runMain(int argc, char** argv)
         return complain(
             concat(o.pack, ": the pack was not made from an OBJ scene, so it has no faces: use --per patch"),
             kBadInput);
+    if (o.mode == gpu::kModeError && pack->tile().patchErrors.empty())
+        return complain(concat(o.pack, ": the pack says nothing of errors, as of bakes by the paper's methods: "
+                                       "bake it with --method heliopolis"),
+                        kBadInput);
     if (o.picked >= pack->patchCount())
         return complain(concat("--pick ", o.picked, ": the pack has ", pack->patchCount(), " patches, 0 on"),
                         kBadInput);

@@ -17,7 +17,8 @@ const std::map<std::string, u32> kModes{{"final", gpu::kModeFinal},        {"id"
                                         {"esun", gpu::kModeSun},           {"esky", gpu::kModeSky},
                                         {"eindirect", gpu::kModeIndirect}, {"radiosity", gpu::kModeRadiosity},
                                         {"albedo", gpu::kModeAlbedo},      {"level", gpu::kModeLevel},
-                                        {"links", gpu::kModeLinks},        {"residual", gpu::kModeResidual}};
+                                        {"links", gpu::kModeLinks},        {"residual", gpu::kModeResidual},
+                                        {"error", gpu::kModeError}};
 constexpr u32 kMaxSize = 16384;
 
 std::string checkSize(const std::string& text, u32& width, u32& height)
@@ -147,7 +148,7 @@ Result<RenderOptions> parseCommandLine(int argc, char** argv, bool& done)
         ->capture_default_str();
     app.add_option("--view", view,
                    "final, id, depth, sun-visibility, esun, esky, eindirect, radiosity, albedo; in false colour level, "
-                   "links (of --pick) or residual")
+                   "links (of --pick), residual, or error (expected, of E_indirect)")
         ->check(CLI::IsMember(kModes))
         ->capture_default_str();
     app.add_option("--pick", o.picked, "patch whose links --view links shows")->capture_default_str();

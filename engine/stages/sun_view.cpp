@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
@@ -16,6 +17,8 @@ namespace {
 /// Slope of the texels against the scene's own axes, and the share of the height that the slope of y may cost.
 constexpr double kSkew = 0.05;
 constexpr double kSkewCost = 0.1;
+constexpr double kTexelStep = 1.02;
+constexpr u64 kMarginTexels = 3; // one at each side, and one for where the grid begins
 
 double cross2(glm::dvec2 a, glm::dvec2 b)
 {
@@ -117,8 +120,10 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
 
     std::vector<glm::dvec2> points;
     points.reserve(8 * boxes.size());
+    Box all = boxes.front();
     double nearest = std::numeric_limits<double>::max(), farthest = std::numeric_limits<double>::lowest();
     for (const Box& box : boxes) {
+        all = {glm::min(all.lo, box.lo), glm::max(all.hi, box.hi)};
         for (u32 k = 0; k < 8; ++k) {
             const glm::dvec3 p((k & 1) ? box.hi.x : box.lo.x, (k & 2) ? box.hi.y : box.lo.y,
                                (k & 4) ? box.hi.z : box.lo.z);
@@ -127,6 +132,7 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
             farthest = std::max(farthest, -glm::dot(p, towardsSun));
         }
     }
+    const glm::dvec3 anchor = 0.5 * (glm::dvec3(all.lo) + glm::dvec3(all.hi));
     // Edges along the texels gain or lose a whole row of them at once; under a small angle the rounding averages out
     // over a patch. Two shears set the texels askew and keep their area: x by y, and y by x anew in each column of
     // views, so that a long scene stays narrow.
@@ -134,37 +140,39 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
     const double height = std::max(r.hi.y - r.lo.y, 1e-3);
     const double width = std::max(r.hi.x - r.lo.x, 1e-3) + kSkew * height;
 
+    // A texel is the one asked for times a power of kTexelStep, so that it seldom changes as the sun moves.
     SunView view;
     view.towardsSun = glm::vec3(towardsSun);
     double skew = 0.0; // of y by x
-    glm::dvec2 extent(0.0);
-    for (double texel = std::max(options.texel, std::sqrt(width * height / double(options.maxTexels)));;
-         texel *= 1.02) {
+    const double least = std::sqrt(width * height / double(options.maxTexels)) / options.texel;
+    double texel =
+        options.texel * std::pow(kTexelStep, std::max(0.0, std::ceil(std::log(least) / std::log(kTexelStep))));
+    for (;; texel *= kTexelStep) {
         const auto split = [&](double length, u32& cells, u32& size) {
-            const u64 texels = u64(std::ceil(length / texel)) + 2;
+            const u64 texels = u64(std::ceil(length / texel)) + kMarginTexels;
             cells = u32((texels + options.maxViewSize - 1) / options.maxViewSize);
             size = u32((texels + cells - 1) / cells);
         };
         split(width, view.gridX, view.width);
-        const double viewWidth = width / view.gridX;
+        const double viewWidth = view.width * texel;
         skew = std::min(kSkew, kSkewCost * height / viewWidth);
-        extent = {width, height + skew * viewWidth};
-        split(extent.y, view.gridY, view.height);
+        split(height + skew * viewWidth, view.gridY, view.height);
         if (u64(view.viewCount()) * view.width * view.height <= options.maxTexels &&
             view.viewCount() <= options.maxViews)
             break;
     }
-    const glm::dvec2 size(view.gridX * view.width, view.gridY * view.height);
-    view.texelX = extent.x / (size.x - 2.0);
-    view.texelY = extent.y / (size.y - 2.0);
-    view.shear = float(skew * view.texelX * view.width / (view.texelY * view.height));
+    view.texelX = view.texelY = texel;
+    view.shear = float(skew * view.width / view.height);
     const double margin = std::max({view.texelX, view.texelY, 1e-3 * (farthest - nearest), 1e-3});
     view.depthRange = farthest - nearest + 2.0 * margin;
 
     const glm::dvec2 axisY = turnLeft(r.axis);
     const glm::dvec3 y = right * axisY.x + up * axisY.y;
     const glm::dvec3 x = right * r.axis.x + up * r.axis.y + kSkew * y;
-    const glm::dvec2 origin(r.lo.x + kSkew * r.lo.y, r.lo.y);
+    // The texels lie fast on the scene's centre: a rectangle that grows by one does not move them.
+    const glm::dvec2 lo = glm::dvec2(r.lo.x + kSkew * r.lo.y, r.lo.y) - texel;
+    const glm::dvec2 centre(glm::dot(x, anchor), glm::dot(y, anchor));
+    const glm::dvec2 origin = centre + texel * glm::floor((lo - centre) / texel);
     const double scaleX = 1.0 / (view.texelX * view.width), scaleY = 1.0 / (view.texelY * view.height);
     const double scaleZ = 1.0 / view.depthRange;
     glm::dmat4 grid(1.0);
@@ -173,8 +181,7 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
         grid[k][1] = y[k] * scaleY;
         grid[k][2] = -towardsSun[k] * scaleZ;
     }
-    grid[3] = glm::dvec4((view.texelX - origin.x) * scaleX, (view.texelY - origin.y) * scaleY,
-                         (margin - nearest) * scaleZ, 1.0);
+    grid[3] = glm::dvec4(-origin.x * scaleX, -origin.y * scaleY, (margin - nearest) * scaleZ, 1.0);
     view.gridFromWorld = glm::mat4(grid);
     return view;
 }

@@ -32,7 +32,7 @@ add_test(NAME screens_pack_setup COMMAND screens_pack_setup)
 set_tests_properties(screens_pack_setup PROPERTIES LABELS screens FIXTURES_SETUP screens_packs)
 
 add_executable(screens_test screens/fly_test.cpp screens/golden_test.cpp screens/packing_test.cpp
-               screens/sun_visibility_test.cpp)
+               screens/sun_visibility_test.cpp screens/temporal_test.cpp)
 target_link_libraries(screens_test PRIVATE screens_city fly_core GTest::gtest_main)
 add_dependencies(screens_test heliopolis-fly)
 gtest_discover_tests(screens_test PROPERTIES LABELS screens FIXTURES_REQUIRED screens_packs TIMEOUT 120

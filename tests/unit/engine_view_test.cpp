@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras, sun directions and the fit of the sun's picture: no device.
 #include <gtest/gtest.h>
+#include <set>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -124,6 +125,29 @@ TEST(SunView, NearerTheSunIsSmallerDepthAndTexelsKeepTheirArea)
     const glm::vec4 db = view.clipFromWorld(0) * glm::vec4(p + glm::vec3(b), 1.0f) - o;
     const double texels = std::abs(double(da.x) * db.y - double(da.y) * db.x) / 4.0 * view.width * view.height;
     EXPECT_NEAR(texels * view.texelArea(), 1.0, 1e-3);
+}
+
+TEST(SunView, TexelsLieFastOnTheCentreAsTheSunMoves)
+{
+    // The rectangle grows and shrinks with every step; neither the texel nor the place of the centre in one may follow.
+    const std::vector<Box> boxes{{{-150, -90, 0}, {170, 35, 30}}, {{100, 100, 5}, {220, 201, 90}}};
+    const glm::vec3 centre(35, 55.5f, 45);
+    SunViewOptions options;
+    options.maxTexels = 1u << 22;
+    const auto place = [&](const SunView& view) { // from where a texel begins, x and y
+        const glm::dvec2 texels = glm::dvec2(gridOf(view, centre)) * glm::dvec2(view.width, view.height);
+        return texels - glm::round(texels);
+    };
+    std::set<double> texels, widths;
+    for (u32 t = 0; t < 40; ++t) {
+        const SunView view = fitSunView(boxes, sunDirection(140 + 0.05 * t, 35, 0), options);
+        texels.insert(view.texelX);
+        widths.insert(view.width * view.gridX + 1e5 * view.height * view.gridY);
+        EXPECT_NEAR(place(view).x, 0.0, 0.01) << t;
+        EXPECT_NEAR(place(view).y, 0.0, 0.01) << t;
+    }
+    EXPECT_EQ(texels.size(), 1u);
+    EXPECT_GT(widths.size(), 5u) << "the case is too easy";
 }
 
 TEST(SunView, AStreetGetsTexelsShapedToIt)

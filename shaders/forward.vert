@@ -8,11 +8,11 @@
 #include "shaders/lib/fetch.glsl"
 #include "shaders/lib/mesh.glsl"
 
-layout(constant_id = 1) const bool kInterpolate = false; // of the static mesh alone
+layout(constant_id = 1) const bool kInterpolate = false; // of the smooth mesh alone
 layout(push_constant, scalar) uniform Params { ForwardParams params; };
 layout(location = kAttributeAlbedo) in uint aAlbedo;
-HELIO_READS_UINT(corners, kForwardCorners)
-HELIO_READS_VEC4(corner, kForwardSmooth)
+HELIO_READS_UINT(valueOf, kForwardValueOf)
+HELIO_READS_VEC4(smooth_, kForwardSmooth)
 layout(location = 0) out vec3 vFromEye; // small near the eye, so that its derivatives are precise
 layout(location = 1) out vec3 vNormal;
 layout(location = 2) out vec3 vAlbedo;
@@ -30,9 +30,9 @@ void main()
     vSky = vec3(0.0);
     vIndirect = vec3(0.0);
     if (kInterpolate) {
-        const uint k = readUint(corners, gl_VertexIndex);
-        vSky = readVec4(corner, 2u * k).rgb;
-        vIndirect = readVec4(corner, 2u * k + 1u).rgb;
+        const uint k = readUint(valueOf, gl_VertexIndex);
+        vSky = readVec4(smooth_, 2u * k).rgb;
+        vIndirect = readVec4(smooth_, 2u * k + 1u).rgb;
     }
     gl_Position = params.clipFromWorld * vec4(position, 1.0);
 }

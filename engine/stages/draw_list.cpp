@@ -14,8 +14,7 @@ DrawList::DrawList(Context& context, std::vector<gpu::DrawRecord> draws)
 {
     while (staticCount_ < draws_->size() && isStaticDraw((*draws_)[staticCount_])) ++staticCount_;
     // No draws is a null pointer, which memcpy must not get.
-    if (!draws_->empty())
-        std::memcpy(arguments_.mapped(), draws_->data(), draws_->size() * sizeof(gpu::DrawRecord));
+    if (!draws_->empty()) std::memcpy(arguments_.mapped(), draws_->data(), draws_->size() * sizeof(gpu::DrawRecord));
     arguments_.flush();
 }
 
@@ -27,9 +26,15 @@ u64 DrawList::triangleCount() const
 }
 
 CityMesh::CityMesh(PassBuilder& pass, const TileTables& tile, const DrawList& list)
-    : vertices_(pass.read(pass.import(tile.vertices), Use::VertexAttribute)),
-      indices_(pass.read(pass.import(tile.indices), Use::Index)),
-      instances_(pass.read(pass.import(tile.instances), Use::VertexAttribute)),
+    : CityMesh(pass, tile.vertices, tile.indices, tile.instances, list)
+{
+}
+
+CityMesh::CityMesh(PassBuilder& pass, const Buffer& vertices, const Buffer& indices, const Buffer& instances,
+                   const DrawList& list)
+    : vertices_(pass.read(pass.import(vertices), Use::VertexAttribute)),
+      indices_(pass.read(pass.import(indices), Use::Index)),
+      instances_(pass.read(pass.import(instances), Use::VertexAttribute)),
       arguments_(pass.read(pass.import(list.arguments()), Use::Indirect)), draws_(list.draws()),
       staticCount_(list.staticCount())
 {

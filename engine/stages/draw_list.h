@@ -27,11 +27,13 @@ private:
     Buffer arguments_;
 };
 
-/// The city's geometry in one pass, declared as vertex, index and indirect input.
+/// Geometry in one pass, declared as vertex, index and indirect input.
 class CityMesh
 {
 public:
     CityMesh(PassBuilder& pass, const TileTables& tile, const DrawList& list);
+    CityMesh(PassBuilder& pass, const Buffer& vertices, const Buffer& indices, const Buffer& instances,
+             const DrawList& list);
 
     /// Vertex slots and attributes of every mesh pipeline (shaders/lib/mesh.glsl); with shading also the albedo.
     static void describe(GraphicsPipelineDesc& desc, bool shading);

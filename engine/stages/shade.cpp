@@ -10,39 +10,63 @@ namespace {
 
 constexpr VkFormat kVectors = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-const ReadVariants kSmoothLight{shaders::kSmoothLightComp, shaders::kSmoothLightImagesComp,
-                                shaders::kSmoothLightStorageComp};
+const ReadVariants kSmoothCorners{shaders::kSmoothCornersComp, shaders::kSmoothCornersImagesComp,
+                                  shaders::kSmoothCornersStorageComp};
+const ReadVariants kSmoothPatches{shaders::kSmoothPatchesComp, shaders::kSmoothPatchesImagesComp,
+                                  shaders::kSmoothPatchesStorageComp};
+const ReadVariants kSmoothFans{shaders::kSmoothFansComp, shaders::kSmoothFansImagesComp,
+                               shaders::kSmoothFansStorageComp};
 const ReadVariants kForwardVert{shaders::kForwardVert, shaders::kForwardImagesVert, shaders::kForwardStorageVert};
 const ReadVariants kForwardFrag{shaders::kForwardFrag, shaders::kForwardImagesFrag, shaders::kForwardStorageFrag};
 
 } // namespace
 
-Ref<Buffer> addSmoothLight(FrameGraph& graph, const CornerTables& corners, Ref<Buffer> sky, Ref<Buffer> indirect,
-                           Ref<Buffer> values, Reads reads)
+Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> sky, Ref<Buffer> indirect)
 {
     return graph.addPass("smooth light", [&](PassBuilder& pass) {
-        const auto rows = pass.read(pass.import(corners.rows), Use::ComputeRead);
-        const auto patches = pass.read(pass.import(corners.patches), Use::ComputeRead);
+        const auto read = [&](const Buffer& buffer) { return pass.read(pass.import(buffer), Use::ComputeRead); };
+        const auto cornerRows = read(mesh.cornerRows), cornerPatches = read(mesh.cornerPatches);
+        const auto patchRows = read(mesh.patchRows), patchWeights = read(mesh.patchWeights);
+        const auto fanRows = read(mesh.fanRows), fanWeightRows = read(mesh.fanWeightRows);
+        const auto fanWeights = read(mesh.fanWeights);
         const auto fromSky = pass.read(sky, Use::ComputeRead);
         const auto fromPatches = pass.read(indirect, Use::ComputeRead);
-        const auto out = pass.write(values, Use::ComputeWrite);
-        pass.record([=, count = corners.count](PassContext& ctx) {
-            ctx.dispatch(kSmoothLight[reads],
-                         {texels(gpu::kSmoothRows, rows, VK_FORMAT_R32_UINT),
-                          texels(gpu::kSmoothPatches, patches, VK_FORMAT_R32_UINT),
-                          texels(gpu::kSmoothSky, fromSky, kVectors),
-                          texels(gpu::kSmoothIndirect, fromPatches, kVectors), storage(gpu::kSmoothValues, out)},
-                         gpu::SmoothParams{count}, groupsFor(count, gpu::kSolveGroup));
+        const auto out = pass.write(pass.import(mesh.values), Use::ComputeReadWrite);
+        pass.record([=, reads = mesh.reads, corners = mesh.cornerCount, patches = mesh.patchCount](PassContext& ctx) {
+            const std::vector<Binding> bindings{
+                texels(gpu::kSmoothSky, fromSky, kVectors), texels(gpu::kSmoothIndirect, fromPatches, kVectors),
+                texels(gpu::kSmoothBefore, out, kVectors), storage(gpu::kSmoothValues, out)};
+            const auto dispatch = [&](const ReadVariants& shader, u32 count, u32 round, std::vector<Binding> own) {
+                own.insert(own.end(), bindings.begin(), bindings.end());
+                const gpu::SmoothParams params{corners, patches, round};
+                ctx.dispatchBytes(shader[reads], own, std::as_bytes(std::span(&params, 1)),
+                                  groupsFor(count, gpu::kSolveGroup), {});
+            };
+            for (u32 round = 0; round < gpu::kSmoothRounds; ++round) {
+                dispatch(kSmoothCorners, corners, round,
+                         {texels(gpu::kSmoothRows, cornerRows, VK_FORMAT_R32_UINT),
+                          texels(gpu::kSmoothItems, cornerPatches, VK_FORMAT_R32_UINT)});
+                ctx.barrier();
+                dispatch(kSmoothPatches, patches, round,
+                         {texels(gpu::kSmoothRows, patchRows, VK_FORMAT_R32_UINT),
+                          texels(gpu::kSmoothItems, patchWeights, VK_FORMAT_R32G32_UINT)});
+                ctx.barrier();
+            }
+            dispatch(kSmoothFans, patches, 0,
+                     {texels(gpu::kSmoothFans, fanRows, VK_FORMAT_R32_UINT),
+                      texels(gpu::kSmoothRows, fanWeightRows, VK_FORMAT_R32_UINT),
+                      texels(gpu::kSmoothItems, fanWeights, VK_FORMAT_R32G32_UINT)});
         });
         return out;
     });
 }
 
-ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const ShadeInputs& in,
-                        ShadeTargets targets)
+ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SmoothTables& smoothMesh,
+                        const DrawList& smoothList, const ShadeInputs& in, ShadeTargets targets)
 {
     return graph.addPass("forward", [&](PassBuilder& pass) {
         const CityMesh mesh(pass, tile, list);
+        const CityMesh refined(pass, smoothMesh.vertices, smoothMesh.indices, tile.instances, smoothList);
         const auto emission = pass.read(pass.import(tile.emission), Use::FragmentRead);
         const auto view = pass.read(in.view, Use::FragmentRead);
         const auto shadow = pass.read(in.shadow, Use::FragmentSample);
@@ -50,20 +74,20 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
         const auto sky = pass.read(in.sky, Use::FragmentRead);
         const auto indirect = pass.read(in.indirect, Use::FragmentRead);
         const auto radiosity = pass.read(in.radiosity, Use::FragmentRead);
-        const auto corners = pass.read(in.cornerOfVertex, Use::VertexRead);
+        const auto valueOfVertex = pass.read(pass.import(smoothMesh.valueOfVertex), Use::VertexRead);
         const auto smooth = pass.read(in.smooth, Use::VertexRead);
         const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget),
                                pass.write(targets.depth, Use::DepthTarget)};
         pass.record([=, params = in.params, mode = in.mode, interpolate = in.interpolate, emitters = in.emitters,
-                     reads = tile.reads](PassContext& ctx) {
+                     reads = tile.reads, smoothReads = smoothMesh.reads](PassContext& ctx) {
             RenderTargets to;
             to.colors = {{out.radiance, VkClearColorValue{}, 0}};
             to.depth = {out.depth, 0.0f, 0};
             ctx.render(to, [&](Drawing& drawing) {
-                const auto drawPart = [&](bool smoothed, u32 first, u32 count) {
+                const auto draw = [&](const CityMesh& part, bool smoothed, u32 first, u32 count) {
                     if (count == 0) return;
                     GraphicsPipelineDesc city;
-                    city.vertex = &kForwardVert[reads];
+                    city.vertex = &kForwardVert[smoothReads];
                     city.fragment = &kForwardFrag[reads];
                     city.depthCompare = VK_COMPARE_OP_GREATER;
                     city.constants = {{0, mode}, {1, smoothed}, {2, emitters}};
@@ -75,13 +99,14 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
                                   texels(gpu::kForwardSun, sun, kVectors), texels(gpu::kForwardSky, sky, kVectors),
                                   texels(gpu::kForwardIndirect, indirect, kVectors),
                                   texels(gpu::kForwardRadiosity, radiosity, kVectors),
-                                  texels(gpu::kForwardCorners, corners, VK_FORMAT_R32_UINT),
+                                  texels(gpu::kForwardValueOf, valueOfVertex, VK_FORMAT_R32_UINT),
                                   texels(gpu::kForwardSmooth, smooth, kVectors)});
                     drawing.push(params);
-                    mesh.draw(ctx, drawing, first, count);
+                    part.draw(ctx, drawing, first, count);
                 };
-                drawPart(interpolate, 0, mesh.staticCount());
-                drawPart(false, mesh.staticCount(), mesh.count() - mesh.staticCount());
+                const u32 replaced = interpolate ? mesh.staticCount() : 0;
+                if (interpolate) draw(refined, true, 0, refined.count());
+                draw(mesh, false, replaced, mesh.count() - replaced);
 
                 // The background lies at depth 0, where nothing was drawn.
                 GraphicsPipelineDesc background;

@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/graph/frame_graph.h"
 #include "engine/stages/draw_list.h"
+#include "engine/stream/smooth_tables.h"
 #include "shaders/shared/view.h"
 
 namespace helio {
@@ -9,16 +10,10 @@ namespace helio {
 inline constexpr VkFormat kRadianceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kDisplayFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
-/// Corners of the static mesh on the device (see Corners).
-struct CornerTables
-{
-    u32 count = 0;
-    Buffer ofVertex, rows, patches;
-};
-
-/// E_sky and E_indirect at the corners: two vec4 a corner, W/m2. sky: vec4 a patch; indirect: vec4 a node.
-[[nodiscard]] Ref<Buffer> addSmoothLight(FrameGraph& graph, const CornerTables& corners, Ref<Buffer> sky,
-                                         Ref<Buffer> indirect, Ref<Buffer> values, Reads reads);
+/// E_sky and E_indirect at the corners and in the middles of the smooth mesh, W/m2: see SmoothTables::values. The mean
+/// over a patch is the patch's own value. sky: vec4 a patch; indirect: vec4 a node, patches first; none negative.
+[[nodiscard]] Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> sky,
+                                         Ref<Buffer> indirect);
 
 /// What the forward pass reads. All W/m2; vec4 a patch (radiosity and indirect: a node, patches first).
 struct ShadeInputs
@@ -27,10 +22,9 @@ struct ShadeInputs
     Ref<Buffer> view;  ///< ViewRecord
     Ref<Image> shadow; ///< depth array of the sun raster
     Ref<Buffer> sun, sky, indirect, radiosity;
-    Ref<Buffer> cornerOfVertex; ///< u32 a static vertex; any buffer when light is not interpolated
-    Ref<Buffer> smooth;         ///< values of addSmoothLight, likewise
+    Ref<Buffer> smooth; ///< values of addSmoothLight; any of its kind when light is not interpolated
     u32 mode = gpu::kModeFinal;
-    bool interpolate = false; ///< light of the static mesh by `smooth`
+    bool interpolate = false; ///< draw the smooth mesh in place of the static one, with the light of `smooth`
     bool emitters = false;    ///< some patch emits
 };
 
@@ -42,8 +36,8 @@ struct ShadeTargets
 
 /// Stage 4: the city and the sky behind it. final: radiance in W/m2/sr; other modes: the quantity itself (ids: a
 /// colour, the id in alpha; depth: distance from the eye in m); background 0, or -1 in alpha for ids and depth.
-ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const ShadeInputs& in,
-                        ShadeTargets targets);
+ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SmoothTables& smoothMesh,
+                        const DrawList& smoothList, const ShadeInputs& in, ShadeTargets targets);
 
 /// Radiance to display: params.samples^2 texels of `radiance` a pixel of `display` (RGBA8, sRGB).
 [[nodiscard]] Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display,

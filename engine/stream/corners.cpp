@@ -3,108 +3,104 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <unordered_map>
+#include <glm/vec3.hpp>
 #include <utility>
 
-#include "city/base/check.h"
 #include "city/base/hash.h"
 
 namespace helio {
 
 namespace {
 
-constexpr float kCell = 1.0f;       // m, of the grid that finds corners on edges
-constexpr float kJoin = 1e-3f;      // m, within which positions are one
-constexpr float kEdgeInset = 0.01f; // m, that a corner must keep from the ends of an edge to count as inside it
-
-struct Key
+/// About the size of a triangle, m.
+float cellFor(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices)
 {
-    std::array<i32, 3> position;
-    u32 normal;
-    auto operator<=>(const Key&) const = default;
-};
-
-Key keyOf(const gpu::VertexRecord& v)
-{
-    const glm::vec3 p = v.position / kJoin;
-    return {{i32(std::lround(p.x)), i32(std::lround(p.y)), i32(std::lround(p.z))}, v.normal};
+    double area = 0.0;
+    for (size_t k = 0; k + 2 < indices.size(); k += 3) {
+        const glm::vec3 a = vertices[indices[k]].position;
+        const glm::vec3 side = vertices[indices[k + 1]].position - a, other = vertices[indices[k + 2]].position - a;
+        area += double(glm::length(glm::cross(side, other)));
+    }
+    return std::max(float(std::sqrt(area / double(std::max<size_t>(indices.size() / 3, 1)))), 8.0f * kCornerJoin);
 }
-
-u64 cellOf(glm::vec3 p, u32 normal)
-{
-    const std::array<i32, 4> cell{i32(std::floor(p.x / kCell)), i32(std::floor(p.y / kCell)),
-                                  i32(std::floor(p.z / kCell)), i32(normal)};
-    return hashBytes(std::as_bytes(std::span(cell)));
-}
-
-struct Member
-{
-    u32 corner, patch;
-    auto operator<=>(const Member&) const = default;
-};
 
 } // namespace
 
-Corners buildCorners(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices)
+Corners::Corners(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices,
+                 std::span<const gpu::PatchRecord> patches)
+    : cell_(cellFor(vertices, indices)), ofVertex_(vertices.size(), gpu::kNone),
+      heads_(std::bit_ceil(std::max<size_t>(vertices.size(), 1)), gpu::kNone)
 {
-    Corners corners;
-    std::vector<std::pair<Key, u32>> sorted;
-    sorted.reserve(vertices.size());
-    for (u32 i = 0; i < vertices.size(); ++i) sorted.push_back({keyOf(vertices[i]), i});
-    std::sort(sorted.begin(), sorted.end());
+    for (const u32 index : indices) {
+        u32& corner = ofVertex_[index];
+        if (corner != gpu::kNone) continue;
+        const gpu::VertexRecord& v = vertices[index];
+        const Corner here{v.position, v.normal, patches[v.patchId].building};
+        float nearest = kCornerJoin;
+        near(here.position, kCornerJoin, here.normal, here.building, [&](u32 c) {
+            const Corner& other = corners_[c];
+            const float distance = glm::length(other.position - here.position);
+            if (other.normal != here.normal || other.building != here.building || distance >= nearest) return;
+            nearest = distance;
+            corner = c;
+        });
+        if (corner != gpu::kNone) continue;
+        corner = u32(corners_.size());
+        add(here);
+    }
+}
 
-    corners.ofVertex.resize(vertices.size());
-    std::vector<u32> representative;
-    std::vector<Member> members;
-    members.reserve(vertices.size());
-    for (u32 k = 0; k < sorted.size(); ++k) {
-        if (k == 0 || sorted[k].first != sorted[k - 1].first) representative.push_back(sorted[k].second);
-        const u32 corner = u32(representative.size() - 1);
-        corners.ofVertex[sorted[k].second] = corner;
-        members.push_back({corner, vertices[sorted[k].second].patchId});
-    }
+u64 Corners::bucketOf(const glm::ivec3& cell, u32 normal, u32 building) const
+{
+    const std::array<u32, 5> key{u32(cell.x), u32(cell.y), u32(cell.z), normal, building};
+    return hashBytes(std::as_bytes(std::span(key))) & (heads_.size() - 1);
+}
 
-    std::unordered_map<u64, std::vector<u32>> grid; // looked up only, never walked
-    for (u32 c = 0; c < representative.size(); ++c) {
-        const gpu::VertexRecord& v = vertices[representative[c]];
-        grid[cellOf(v.position, v.normal)].push_back(c);
-    }
-    for (u32 i = 0; i < indices.size(); ++i) {
-        const gpu::VertexRecord& a = vertices[indices[i]];
-        const gpu::VertexRecord& b = vertices[indices[i % 3 == 2 ? i - 2 : i + 1]];
-        const glm::vec3 edge = b.position - a.position;
-        const float length = glm::length(edge);
-        if (length <= 2.0f * kEdgeInset) continue;
-        const glm::vec3 along = edge / length;
-        const u32 steps = u32(std::ceil(2.0f * length / kCell));
-        u64 lastCell = 0;
-        for (u32 s = 0; s <= steps; ++s) {
-            const u64 cell = cellOf(a.position + edge * (float(s) / float(steps)), a.normal);
-            if (s > 0 && cell == lastCell) continue;
-            lastCell = cell;
-            const auto found = grid.find(cell);
-            if (found == grid.end()) continue;
-            for (const u32 c : found->second) {
-                const gpu::VertexRecord& v = vertices[representative[c]];
-                const glm::vec3 offset = v.position - a.position;
-                const float t = glm::dot(offset, along);
-                if (v.normal != a.normal || t < kEdgeInset || t > length - kEdgeInset) continue;
-                if (glm::length(offset - along * t) < kJoin) members.push_back({c, a.patchId});
-            }
-        }
-    }
+void Corners::add(const Corner& corner)
+{
+    const u64 bucket = bucketOf(glm::ivec3(glm::floor(corner.position / cell_)), corner.normal, corner.building);
+    next_.push_back(std::exchange(heads_[bucket], u32(corners_.size())));
+    corners_.push_back(corner);
+}
 
-    std::sort(members.begin(), members.end());
-    members.erase(std::unique(members.begin(), members.end()), members.end());
-    corners.rows.assign(representative.size() + 1, 0);
-    for (const Member& m : members) {
-        ++corners.rows[m.corner + 1];
-        corners.patches.push_back(m.patch);
+template <class Visit>
+void Corners::near(glm::vec3 point, float reach, u32 normal, u32 building, const Visit& visit) const
+{
+    const glm::ivec3 lo(glm::floor((point - reach) / cell_)), hi(glm::floor((point + reach) / cell_));
+    for (i32 z = lo.z; z <= hi.z; ++z)
+        for (i32 y = lo.y; y <= hi.y; ++y)
+            for (i32 x = lo.x; x <= hi.x; ++x)
+                for (u32 c = heads_[bucketOf({x, y, z}, normal, building)]; c != gpu::kNone; c = next_[c]) visit(c);
+}
+
+std::vector<u32> Corners::inside(u32 a, u32 b) const
+{
+    const Corner& from = corners_[a];
+    const glm::vec3 edge = corners_[b].position - from.position;
+    const float length = glm::length(edge);
+    std::vector<std::pair<float, u32>> found;
+    const u32 steps = u32(std::ceil(length / cell_));
+    for (u32 s = 0; s < steps; ++s) {
+        // No point of the edge is further from one of the places than half a step.
+        const glm::vec3 place = from.position + edge * ((float(s) + 0.5f) / float(steps));
+        near(place, 0.5f * length / float(steps) + 2.0f * kCornerJoin, from.normal, from.building, [&](u32 c) {
+            const Corner& other = corners_[c];
+            if (other.normal != from.normal || other.building != from.building) return;
+            const glm::vec3 offset = other.position - from.position;
+            const float t = glm::dot(offset, edge) / length;
+            if (t <= 0.0f || t >= length) return;
+            if (glm::length(offset - edge * (t / length)) <= kCornerJoin) found.push_back({t, c});
+        });
     }
-    for (u32 c = 0; c < representative.size(); ++c) corners.rows[c + 1] += corners.rows[c];
-    return corners;
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::vector<u32> ordered;
+    for (const auto& [t, c] : found) ordered.push_back(c);
+    return ordered;
 }
 
 } // namespace helio

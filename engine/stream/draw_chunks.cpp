@@ -154,11 +154,7 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& i
                 chunks.push_back(std::move(chunk));
             }
         } else {
-            for (u32 first = 0; first < draw.indexCount; first += 3 * kChunkTriangles) {
-                DrawChunk chunk{draw, kEmpty, nullptr, {glm::mat3(1.0f)}};
-                chunk.draw.firstIndex = draw.firstIndex + first;
-                chunk.draw.indexCount = std::min(3 * kChunkTriangles, draw.indexCount - first);
-                growPlaced(chunk.box, tile.instances[draw.firstInstance], boundsOf(tile, chunk.draw));
+            for (DrawChunk& chunk : cutStaticDraw(tile, draw)) {
                 chunk.facing = sorter.sort(chunk.draw);
                 chunks.push_back(std::move(chunk));
             }
@@ -166,6 +162,19 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& i
     }
     std::stable_partition(chunks.begin(), chunks.end(),
                           [](const DrawChunk& chunk) { return isStaticDraw(chunk.draw); });
+    return chunks;
+}
+
+std::vector<DrawChunk> cutStaticDraw(const TileView& tile, const gpu::DrawRecord& draw)
+{
+    std::vector<DrawChunk> chunks;
+    for (u32 first = 0; first < draw.indexCount; first += 3 * kChunkTriangles) {
+        DrawChunk chunk{draw, kEmpty, nullptr, {glm::mat3(1.0f)}};
+        chunk.draw.firstIndex = draw.firstIndex + first;
+        chunk.draw.indexCount = std::min(3 * kChunkTriangles, draw.indexCount - first);
+        growPlaced(chunk.box, tile.instances[draw.firstInstance], boundsOf(tile, chunk.draw));
+        chunks.push_back(std::move(chunk));
+    }
     return chunks;
 }
 

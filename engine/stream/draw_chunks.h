@@ -53,6 +53,8 @@ inline constexpr u32 kChunkInstances = 32;
 /// Cuts the tile's draws into chunks with their bounds. The static mesh comes first; apart from that
 /// chunks keep the order of the draws. indices: the tile's, reordered inside the chunks by facing.
 std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& indices);
+/// One draw of the static mesh alone, in the order of its indices and without facing.
+std::vector<DrawChunk> cutStaticDraw(const TileView& tile, const gpu::DrawRecord& draw);
 
 /// Which triangles belong to closed surfaces? positions: three corners each. A connected part (corners at the same
 /// place) is closed if every edge has as many triangles on its one side as on its other and it encloses a volume with

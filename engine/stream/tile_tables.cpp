@@ -51,15 +51,12 @@ Result<LinkBuffers> packAndUpload(Context& context, const char* name, const Link
     return uploadLinks(context, name, *packed, links);
 }
 
-/// Elements of the largest array that the solve and the pictures read, the links aside.
+/// Elements of the largest array that the solve and the pictures read, links and interpolated light aside.
 u64 largestArray(const TileView& tile)
 {
-    // Corners of interpolated light: two values each, no more of them than triangle corners.
-    const u64 corners = 2 * u64(tile.indices.size()), vertices = countStaticVertices(tile);
     const u64 inner = tile.nodes.size() - tile.patches.size();
     const u64 senders = tile.patches.size() + (tile.linkMoments.empty() ? 1 : 2) * inner;
-    return std::max(
-        {senders, corners, vertices, u64(tile.children.size()), u64(tile.nodes.size() + tile.nodes.size() / 4)});
+    return std::max({senders, u64(tile.children.size()), u64(tile.nodes.size() + tile.nodes.size() / 4)});
 }
 
 } // namespace
@@ -96,16 +93,6 @@ std::vector<u32> staticTriangles(const TileView& tile)
             for (u32 k = 0; k < draw.indexCount; ++k)
                 triangles.push_back(tile.indices[draw.firstIndex + k] + draw.vertexOffset);
     return triangles;
-}
-
-u32 countStaticVertices(const TileView& tile)
-{
-    u32 count = 0;
-    for (const gpu::DrawRecord& draw : tile.draws)
-        if (isStaticDraw(draw))
-            for (u32 k = 0; k < draw.indexCount; ++k)
-                count = std::max(count, tile.indices[draw.firstIndex + k] + draw.vertexOffset + 1);
-    return count;
 }
 
 Result<TileTables> uploadTile(Context& context, const TileView& tile, const UploadOptions& options)
@@ -157,7 +144,6 @@ Result<TileTables> uploadTile(Context& context, const TileView& tile, const Uplo
 
     t.vertices = makeBuffer(context, "vertices", tile.vertices);
     t.instances = makeBuffer(context, "instances", tile.instances);
-    t.staticVertexCount = countStaticVertices(tile);
     std::vector<u32> indices(tile.indices.begin(), tile.indices.end());
     t.chunks = buildDrawChunks(tile, indices);
     t.indices = makeBuffer(context, "indices", indices);

@@ -61,7 +61,6 @@ struct TileTables
     LinkBuffers skyLinks; ///< receivers: patches; senders: sky patches, see skySenders
 
     Buffer vertices, indices, instances;
-    u32 staticVertexCount = 0; ///< vertices of the static mesh (instance 0), which come first
     std::vector<DrawChunk> chunks;
 };
 
@@ -78,8 +77,6 @@ struct UploadOptions
 /// Puts a tile on the device. Errors: no patches; a tree or links that the device cannot take.
 Result<TileTables> uploadTile(Context& context, const TileView& tile, const UploadOptions& options = {});
 
-/// Vertices of the static mesh: those that draws of instance 0 use, counted from vertex 0.
-u32 countStaticVertices(const TileView& tile);
 /// Triangles of the static mesh, as vertex numbers with the draws' offsets applied.
 std::vector<u32> staticTriangles(const TileView& tile);
 

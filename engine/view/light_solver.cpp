@@ -274,6 +274,7 @@ const SolveReport& LightSolver::solve(const LightState& light)
         return report_;
     }
     report_.cached = false;
+    ++solveCount_;
     report_.stages.clear();
     if (light.given) {
         if (!solved_ || solved_->given != light.given) takeGiven(*light.given);
@@ -299,6 +300,7 @@ const SolveReport& LightSolver::refineSun(const LightState& light)
     solve(light);
     if (light.given || !light.sunUp()) return report_;
     report_.cached = false;
+    ++solveCount_;
     report_.stages.clear();
     sampleSun(light);
     sweep(light, true);

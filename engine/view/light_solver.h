@@ -32,6 +32,8 @@ public:
     /// every call. Starts from the last solution. Nothing more than solve without sun.
     const SolveReport& refineSun(const LightState& light);
 
+    /// How often the light was worked out: as long as it stays the same, so does the light.
+    u64 solveCount() const { return solveCount_; }
     RendererOptions& options() { return options_; }
     const SunView& sunView() const { return sunView_; }
     const Image& shadow() const { return *shadow_; }
@@ -66,6 +68,7 @@ private:
     std::optional<LightState> solved_;
     SolveOptions solvedWith_;
     SolveReport report_;
+    u64 solveCount_ = 0;
     HistogramVariant histogram_ = HistogramVariant::Columns;
 
     SpectralBounds spectrum_;

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "engine/gpu/transfer.h"
 #include "engine/graph/pass_context.h"
 #include "engine/stages/shade.h"
 #include "engine/stages/sun_raster.h"
-#include "engine/stream/corners.h"
+#include "engine/stream/smooth_tables.h"
 #include "engine/view/display.h"
 #include "engine/view/legend.h"
 #include "engine/view/light_solver.h"
@@ -57,7 +58,7 @@ struct Renderer::Impl
     Impl(Context& c, const TileView& t, TileTables tables, double north, const RendererOptions& options)
         : context(c), view(t), northDeg(north), tile(std::move(tables)), solver(c, tile, options),
           viewRecord(c, {"view", sizeof(gpu::ViewRecord), Memory::Upload}), recorder(c),
-          nothing(makeBuffer(c, "no corners", std::vector<glm::vec4>(2)))
+          smooth(uploadSmoothMesh(c, {}, tile.reads))
     {
         note = contractionNote(tile.contraction, solver.spectrum());
         ground.z = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
@@ -65,18 +66,17 @@ struct Renderer::Impl
         ground.rho = glm::dvec3(farGroundOf(t));
     }
 
-    /// The tables of interpolated light are made when a picture first asks for them.
-    void needCorners()
+    /// The mesh of interpolated light is made when a picture first asks for it.
+    void needSmoothMesh()
     {
-        if (corners) return;
-        const std::vector<u32> triangles = staticTriangles(view);
-        const Corners c = buildCorners(view.vertices.first(tile.staticVertexCount), triangles);
-        corners.emplace();
-        corners->count = u32(c.rows.size() - 1);
-        corners->ofVertex = makeBuffer(context, "corner of vertex", c.ofVertex);
-        corners->rows = makeBuffer(context, "corner rows", c.rows);
-        corners->patches = makeBuffer(context, "corner patches", c.patches);
-        smooth = makeBuffer(context, "smooth light", std::vector<glm::vec4>(2 * size_t(std::max(corners->count, 1u))));
+        if (smooth.patchCount == 0) smooth = uploadSmoothMesh(context, view, tile.reads);
+    }
+
+    /// Interpolated light, worked out anew when the light changed.
+    Ref<Buffer> smoothLight(FrameGraph& graph, Ref<Buffer> sky, Ref<Buffer> indirect)
+    {
+        if (std::exchange(smoothed, solver.solveCount()) == solver.solveCount()) return graph.import(smooth.values);
+        return addSmoothLight(graph, smooth, sky, indirect);
     }
 
     /// The numbers that a mode shows in false colour, and the largest of them.
@@ -122,11 +122,10 @@ struct Renderer::Impl
     LightState light;
     Buffer viewRecord;
     Recorder recorder;
-    Buffer nothing;
-    std::optional<CornerTables> corners;
-    Buffer smooth;
+    SmoothTables smooth; // empty until it is needed
+    u64 smoothed = 0;    // solveCount of its values
     FrameImages images;
-    DrawList drawn;
+    DrawList drawn, smoothDrawn;
     Buffer values;
     double largestValue = 1.0;
 };
@@ -231,8 +230,8 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const SolveReport& report = r.solver.solve(r.light);
     const bool exact = options.mode == gpu::kModeId || options.mode == gpu::kModeDepth;
     const u32 samples = exact ? 1 : options.samples;
-    const bool smooth = options.mode == gpu::kModeFinal && options.smoothLight && r.tile.staticVertexCount > 0;
-    if (smooth) r.needCorners();
+    const bool smooth = options.mode == gpu::kModeFinal && options.smoothLight;
+    if (smooth) r.needSmoothMesh();
     r.needImages(width, height, samples);
     const bool numbers = options.mode >= gpu::kModeLevel;
     if (numbers) r.needValues(options);
@@ -244,6 +243,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
     r.drawn = DrawList(r.context, visibleDraws(r.tile.chunks, params.clipFromWorld));
+    r.smoothDrawn = DrawList(r.context, visibleDraws(r.smooth.chunks, params.clipFromWorld));
 
     ShadeInputs in;
     in.params = params;
@@ -253,14 +253,12 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.sky = graph.import(r.solver.sky());
     in.indirect = graph.import(r.solver.indirect());
     in.radiosity = graph.import(numbers ? r.values : r.solver.radiosity());
-    in.cornerOfVertex = graph.import(smooth ? r.corners->ofVertex : r.nothing);
-    in.smooth = smooth ? addSmoothLight(graph, *r.corners, in.sky, in.indirect, graph.import(r.smooth), r.tile.reads)
-                       : graph.import(r.nothing);
+    in.smooth = smooth ? r.smoothLight(graph, in.sky, in.indirect) : graph.import(r.smooth.values);
     in.mode = options.mode;
     in.interpolate = smooth;
     in.emitters = r.tile.emits && r.light.emission;
-    const ShadeTargets targets =
-        addForward(graph, r.tile, r.drawn, in, {graph.import(r.images.radiance), graph.import(r.images.depth)});
+    const ShadeTargets targets = addForward(graph, r.tile, r.drawn, r.smooth, r.smoothDrawn, in,
+                                            {graph.import(r.images.radiance), graph.import(r.images.depth)});
 
     gpu::ToneParams tone{};
     tone.width = width;

@@ -130,8 +130,9 @@ public:
 
     /// Solves if needed, draws, waits, reads back.
     Picture render(const Camera& camera, u32 width, u32 height, const ViewOptions& view = {});
-    /// For windows: solves if needed and adds stage 4 to a graph. Returns the display image (RGBA8, sRGB bytes; owned
-    /// by the renderer, import it by displayImage()). One frame in flight: the previous one must be complete.
+    /// For windows: solves if needed and adds stage 4 to a graph, which must be executed. Returns the display image
+    /// (RGBA8, sRGB bytes; owned by the renderer, import it by displayImage()). One frame in flight: the previous one
+    /// must be complete.
     Ref<Image> addFrame(FrameGraph& graph, const Camera& camera, u32 width, u32 height, const ViewOptions& view = {});
     /// The image behind addFrame's result.
     const Image& displayImage() const;

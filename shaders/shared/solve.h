@@ -163,16 +163,28 @@ struct CountParams {       // push constant
 };
 HELIO_SIZE(CountParams, 4);
 
-// smooth_light: E_sky and E_indirect of a corner, from the coplanar patches that meet there
-HELIO_CONSTANT uint kSmoothRows = 0u;
-HELIO_CONSTANT uint kSmoothPatches = 1u;
+// Interpolated light (engine/stream/smooth_mesh.h): E_sky and E_indirect, a pair of vec4 a corner, then a patch, then a fan.
+// smooth_corners and smooth_patches take turns, kSmoothRounds times; then smooth_fans.
+HELIO_CONSTANT uint kSmoothRounds = 3u;
+HELIO_CONSTANT float kSmoothLimit = 1.5f;    // of a corner, in values of the least patch there: from there on middles were negative
+struct CornerWeightRecord {
+    uint corner;
+    float weight;
+};
+HELIO_SIZE(CornerWeightRecord, 8);
+HELIO_CONSTANT uint kSmoothRows = 0u;        // offsets into the items
+HELIO_CONSTANT uint kSmoothItems = 1u;       // a corner's patches; CornerWeightRecords of a patch or a fan
 HELIO_CONSTANT uint kSmoothSky = 2u;
 HELIO_CONSTANT uint kSmoothIndirect = 3u;
-HELIO_CONSTANT uint kSmoothValues = 4u;  // vec4 pairs: E_sky, E_indirect
+HELIO_CONSTANT uint kSmoothBefore = 4u;      // the values, read: those of the other shaders
+HELIO_CONSTANT uint kSmoothValues = 5u;      // the same array, written
+HELIO_CONSTANT uint kSmoothFans = 6u;        // patches + 1 offsets into the rows
 struct SmoothParams {      // push constant
     uint cornerCount;
+    uint patchCount;
+    uint round;
 };
-HELIO_SIZE(SmoothParams, 4);
+HELIO_SIZE(SmoothParams, 12);
 
 HELIO_SHARED_END
 #endif

@@ -29,8 +29,8 @@ HELIO_CONSTANT uint kForwardSun = 3u;
 HELIO_CONSTANT uint kForwardSky = 4u;
 HELIO_CONSTANT uint kForwardIndirect = 5u;
 HELIO_CONSTANT uint kForwardRadiosity = 6u;
-HELIO_CONSTANT uint kForwardCorners = 7u;  // corner of each vertex of the static mesh
-HELIO_CONSTANT uint kForwardSmooth = 8u;   // smooth_light's values
+HELIO_CONSTANT uint kForwardValueOf = 7u;  // which of the values a vertex of the smooth mesh takes
+HELIO_CONSTANT uint kForwardSmooth = 8u;   // values of smooth_corners, _patches and _fans
 
 // Push constant of the city's passes: what every vertex and every pixel needs. Software devices read a word of a storage
 // buffer lane by lane, a push constant once.

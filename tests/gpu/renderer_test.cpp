@@ -347,6 +347,43 @@ TEST_F(RendererTest, SameBytesTwice)
     EXPECT_EQ(std::memcmp(tablesA.sun.data(), tablesB.sun.data(), tablesA.sun.size() * 16), 0);
 }
 
+TEST_F(RendererTest, InterpolatedLightHasNoStepsAndFollowsTheSky)
+{
+    TileBuilder b; // two halves of a plane, one sees twice as much sky
+    b.quad({{{-8, -8, 0}, {0, -8, 0}, {0, 8, 0}, {-8, 8, 0}}}, glm::vec4(0.5f));
+    b.quad({{{0, -8, 0}, {8, -8, 0}, {8, 8, 0}, {0, 8, 0}}}, glm::vec4(0.5f));
+    b.sky(0, 0.4f);
+    b.sky(1, 0.8f);
+    auto renderer = make(b.view());
+    renderer->setSun(0.0, -90.0, 0.0);
+    Camera camera;
+    camera.eye = {0, 0, 10};
+    camera.target = {0, 0, 0};
+    camera.fovDegrees = 60.0;
+    ViewOptions view;
+    view.display = false;
+    const auto row = [&] { // the middle row of pixels
+        const Picture picture = renderer->render(camera, 64, 64, view);
+        std::vector<float> out;
+        for (u32 x = 0; x < 64; ++x) out.push_back(picture.values[32 * 64 + x].r);
+        return out;
+    };
+    renderer->setSky(100.0);
+    const std::vector<float> first = row();
+    EXPECT_EQ(row(), first);
+    float largest = 0.0f;
+    for (u32 x = 0; x + 1 < 64; ++x) largest = std::max(largest, std::abs(first[x + 1] - first[x]));
+    const float step = float(40.0 * 0.5 / kPi);
+    EXPECT_LT(largest, 0.1f * step);
+    renderer->setSky(200.0);
+    (void)renderer->solve(); // before the picture
+    const std::vector<float> second = row();
+    for (u32 x = 0; x < 64; ++x) EXPECT_NEAR(second[x], 2.0f * first[x], 1e-4f * second[x]) << x;
+    view.smoothLight = false;
+    const std::vector<float> flat = row();
+    EXPECT_NEAR(flat[40] - flat[20], 2.0f * step, 0.01f * step);
+}
+
 TEST_F(RendererTest, WarmStartTakesFewerSweepsToTheSameLight)
 {
     TileBuilder b = makeFurnace(0.8f);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-add_library(stage_test_support STATIC support/stage_twins.cpp support/tile_builder.cpp)
+add_library(stage_test_support STATIC support/smooth_twin.cpp support/stage_twins.cpp support/tile_builder.cpp
+            support/wall_builder.cpp)
 target_link_libraries(stage_test_support PUBLIC city_format)
 
 add_executable(gpu_stages_test
@@ -7,6 +8,7 @@ add_executable(gpu_stages_test
     gpu/histogram_test.cpp
     gpu/renderer_test.cpp
     gpu/sky_energy_test.cpp
+    gpu/smooth_light_test.cpp
     gpu/sun_energy_test.cpp
     gpu/sun_raster_test.cpp
     support/unpack_links.cpp)
@@ -21,6 +23,6 @@ gtest_discover_tests(solver_agreement_test PROPERTIES LABELS gpu)
 
 # What the stages decide without a device.
 add_executable(engine_unit_test unit/engine_solver_test.cpp unit/engine_tables_test.cpp unit/engine_view_test.cpp
-               unit/camera_path_test.cpp unit/facing_test.cpp unit/link_packing_test.cpp unit/patch_values_test.cpp support/unpack_links.cpp)
+               unit/camera_path_test.cpp unit/facing_test.cpp unit/link_packing_test.cpp unit/patch_values_test.cpp unit/smooth_mesh_test.cpp support/unpack_links.cpp)
 target_link_libraries(engine_unit_test PRIVATE stage_test_support engine_view GTest::gtest_main)
 gtest_discover_tests(engine_unit_test PROPERTIES LABELS unit)

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "engine/stream/corners.h"
 #include "engine/stream/draw_chunks.h"
 #include "engine/stream/tile_tables.h"
 #include "engine/stream/tree_levels.h"
@@ -125,30 +124,6 @@ TEST(DrawChunks, CullWhatLiesBeyondAPlane)
     EXPECT_LT(countTriangles(some), 400u * 12);
     EXPECT_GE(countTriangles(some), 150u * 12 + 2) << "the boxes beyond 6500 m and the asset at 7000 m";
     EXPECT_EQ(some.back().firstInstance, 2u);
-}
-
-TEST(Corners, CoplanarNeighboursShareAndOthersDoNot)
-{
-    TileBuilder b;
-    const glm::vec4 grey(0.5f);
-    // 0 and 1 side by side on the ground, 2 beside both with a long edge (a T-junction), 3 a wall on the edge of 0.
-    b.quad({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, grey);
-    b.quad({{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}}, grey);
-    b.quad({{{0, 1, 0}, {2, 1, 0}, {2, 2, 0}, {0, 2, 0}}}, grey);
-    b.quad({{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}, grey);
-    const TileView view = b.view();
-    const Corners corners = buildCorners(view.vertices, staticTriangles(view));
-    const auto patchesAt = [&](u32 vertex) {
-        const u32 c = corners.ofVertex[vertex];
-        return std::vector<u32>(corners.patches.begin() + corners.rows[c],
-                                corners.patches.begin() + corners.rows[c + 1]);
-    };
-    EXPECT_EQ(patchesAt(1), (std::vector<u32>{0, 1}));    // (1, 0, 0) of patch 0
-    EXPECT_EQ(patchesAt(2), (std::vector<u32>{0, 1, 2})); // (1, 1, 0) lies inside an edge of 2
-    EXPECT_EQ(patchesAt(3), (std::vector<u32>{0, 2}));    // (0, 1, 0)
-    EXPECT_EQ(patchesAt(0), (std::vector<u32>{0}));       // not the wall: another normal
-    EXPECT_EQ(patchesAt(12), (std::vector<u32>{3}));
-    EXPECT_EQ(corners.ofVertex[1], corners.ofVertex[4]);
 }
 
 } // namespace

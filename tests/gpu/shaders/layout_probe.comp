@@ -24,6 +24,7 @@ layout(scalar, binding = 13) readonly buffer Children { ChildRecord children[]; 
 layout(scalar, binding = 14) readonly buffer Patches { PatchRecord patches[]; };
 layout(scalar, binding = 15) readonly buffer Slopes { ChildSlopeRecord slopes[]; };
 layout(scalar, binding = 16) readonly buffer Residuals { ResidualRecord residuals[]; };
+layout(scalar, binding = 17) readonly buffer Weights { CornerWeightRecord weights[]; };
 layout(push_constant, scalar) uniform Params { uint count; };
 
 void main()
@@ -33,5 +34,5 @@ void main()
     sums[i] = patches[i].area + nodes[i].area + nodeInfos[i].coverage + vertices[i].position.z +
               instances[i].worldFromLocal[2].w + float(draws[i].firstInstance) + skyPatches[i].solidAngle +
               singles[i].momentY + float(quads[i].link3 + moments[i].moments23 + strips[i].singleRecords + rows[i].parent) +
-              children[i].offsetY + slopes[i].yy + residuals[i].largest.w;
+              children[i].offsetY + slopes[i].yy + residuals[i].largest.w + weights[i].weight;
 }

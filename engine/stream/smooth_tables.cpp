@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/stream/smooth_tables.h"
+
+#include <algorithm>
+#include <glm/vec4.hpp>
+
+#include "engine/gpu/transfer.h"
+#include "engine/stream/smooth_mesh.h"
+#include "engine/stream/tile_tables.h"
+
+namespace helio {
+
+SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads)
+{
+    const SmoothMesh mesh = buildSmoothMesh(tile.vertices, staticTriangles(tile), tile.patches);
+    SmoothTables t;
+    t.cornerCount = mesh.cornerCount;
+    t.patchCount = u32(tile.patches.size());
+    const std::vector<glm::vec4> values(2 * (size_t(t.cornerCount) + t.patchCount + mesh.fanWeightRows.size() - 1));
+    const size_t largest =
+        std::max({values.size(), mesh.valueOfVertex.size(), mesh.patchWeights.size(), mesh.fanWeights.size()});
+    t.reads = canRead(context, reads, largest) ? reads : Reads::Storage;
+    t.vertices = makeBuffer(context, "smooth vertices", mesh.vertices);
+    t.indices = makeBuffer(context, "smooth indices", mesh.indices);
+    t.valueOfVertex = makeBuffer(context, "value of vertex", mesh.valueOfVertex);
+    t.cornerRows = makeBuffer(context, "corner rows", mesh.cornerRows);
+    t.cornerPatches = makeBuffer(context, "corner patches", mesh.cornerPatches);
+    t.patchRows = makeBuffer(context, "patch rows", mesh.patchRows);
+    t.patchWeights = makeBuffer(context, "patch weights", mesh.patchWeights);
+    t.fanRows = makeBuffer(context, "fan rows", mesh.fanRows);
+    t.fanWeightRows = makeBuffer(context, "fan weight rows", mesh.fanWeightRows);
+    t.fanWeights = makeBuffer(context, "fan weights", mesh.fanWeights);
+    t.values = makeBuffer(context, "smooth light", values);
+    TileView refined = tile;
+    refined.vertices = mesh.vertices;
+    refined.indices = mesh.indices;
+    t.chunks = cutStaticDraw(refined, {u32(mesh.indices.size()), 1, 0, 0, 0});
+    return t;
+}
+
+} // namespace helio

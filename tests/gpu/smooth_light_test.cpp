@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interpolated light on the device against its twin in double precision.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "engine/gpu/transfer.h"
+#include "engine/graph/pass_context.h"
+#include "engine/stages/shade.h"
+#include "engine/stream/smooth_mesh.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/smooth_twin.h"
+#include "tests/support/wall_builder.h"
+
+namespace helio {
+
+namespace {
+
+class SmoothLightTest : public GpuTest
+{
+};
+
+std::vector<glm::vec4> randomLight(Random& random, size_t count)
+{
+    std::vector<glm::vec4> light;
+    for (size_t i = 0; i < count; ++i)
+        light.emplace_back(100 + random.uniform(), 100 * random.uniform(), std::pow(10.0, 4 * random.uniform()),
+                           std::floor(2 * random.uniform()));
+    return light;
+}
+
+TEST_F(SmoothLightTest, AgreesWithTheTwin)
+{
+    Random random(5);
+    WallBuilder b;
+    b.everything(random, 400);
+    const TileView view = b.view();
+    const SmoothMesh mesh = buildSmoothMesh(b.vertices, b.indices, b.patches);
+    const std::vector<glm::vec4> sky = randomLight(random, b.patches.size()),
+                                 indirect = randomLight(random, b.patches.size());
+    const std::vector<glm::dvec4> fromSky(sky.begin(), sky.end()), fromPatches(indirect.begin(), indirect.end());
+    const std::vector<glm::dvec4> skyTwin = twin::smoothLight(mesh, fromSky),
+                                  indirectTwin = twin::smoothLight(mesh, fromPatches);
+    const Buffer skyBuffer = makeBuffer(context(), "sky", sky),
+                 indirectBuffer = makeBuffer(context(), "indirect", indirect);
+    for (const Reads reads : {Reads::Texels, Reads::Images, Reads::Storage}) {
+        if (!canRead(context(), reads, mesh.indices.size())) continue;
+        const SmoothTables tables = uploadSmoothMesh(context(), view, reads);
+        EXPECT_EQ(tables.reads, reads);
+        Recorder recorder(context());
+        for (int run = 0; run < 2; ++run) { // the second starts from the values of the first
+            FrameGraph graph("smooth");
+            (void)addSmoothLight(graph, tables, graph.import(skyBuffer), graph.import(indirectBuffer));
+            ASSERT_TRUE(graph.compile(context()).ok());
+            recorder.begin();
+            graph.execute(recorder, false);
+            recorder.submitAndWait();
+        }
+        const auto values = downloadItems<glm::vec4>(context(), tables.values);
+        ASSERT_EQ(values.size(), 2 * skyTwin.size());
+        for (size_t i = 0; i < skyTwin.size(); ++i)
+            for (int c = 0; c < 4; ++c) {
+                // Values are differences of means: the error is that of the largest.
+                const double largest = c == 2 ? 1e4 : 100.0;
+                EXPECT_NEAR(double(values[2 * i][c]), skyTwin[i][c], 1e-5 * largest) << i << ", reads " << int(reads);
+                EXPECT_NEAR(double(values[2 * i + 1][c]), indirectTwin[i][c], 1e-5 * largest) << i << ", channel " << c;
+                EXPECT_GE(values[2 * i][c], 0.0f);
+                EXPECT_GE(values[2 * i + 1][c], 0.0f);
+            }
+    }
+}
+
+} // namespace
+
+} // namespace helio

@@ -24,7 +24,7 @@ void main()
 {
     const vec3 position = worldPosition();
     vFromEye = position - params.eye.xyz;
-    vNormal = normalize(worldNormal());
+    vNormal = worldNormal();
     vAlbedo = unpackUnorm4x8(aAlbedo).rgb;
     vPatch = patchOfVertex();
     vSky = vec3(0.0);

@@ -10,6 +10,9 @@ layout(local_size_x = kToneGroup, local_size_y = kToneGroup) in;
 layout(set = 0, binding = kToneInput) uniform sampler2D radiance;
 layout(set = 0, binding = kToneOutput, rgba8) uniform writeonly image2D display;
 layout(push_constant, scalar) uniform Params { ToneParams params; };
+// Constants, since software devices walk through every branch that they could take.
+layout(constant_id = 0) const uint kMode = kModeFinal;
+layout(constant_id = 1) const uint kSamples = 1u; // texels of the input a pixel, in x and in y
 
 vec3 filmic(vec3 x) { return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.02 / 0.3; }
 
@@ -25,10 +28,10 @@ vec3 falseColour(float x)
 
 vec3 displayOf(vec4 value)
 {
-    if (params.mode == kModeFinal) return filmic(2.0 * params.exposure * value.rgb) / filmic(vec3(8.0));
-    if (params.mode == kModeId) return value.rgb;
-    if (params.mode == kModeDepth) return value.a < 0.0 ? vec3(0.0) : vec3(params.scale / (params.scale + value.r));
-    if (params.mode >= kModeLevel) return value.a < 0.0 ? vec3(0.0) : falseColour(value.r / params.scale);
+    if (kMode == kModeFinal) return filmic(2.0 * params.exposure * value.rgb) / filmic(vec3(8.0));
+    if (kMode == kModeId) return value.rgb;
+    if (kMode == kModeDepth) return value.a < 0.0 ? vec3(0.0) : vec3(params.scale / (params.scale + value.r));
+    if (kMode >= kModeLevel) return value.a < 0.0 ? vec3(0.0) : falseColour(value.r / params.scale);
     return value.rgb / params.scale;
 }
 
@@ -43,8 +46,8 @@ void main()
     const uvec2 at = gl_GlobalInvocationID.xy;
     if (at.x >= params.width || at.y >= params.height) return;
     vec3 sum = vec3(0.0);
-    for (uint y = 0u; y < params.samples; ++y)
-        for (uint x = 0u; x < params.samples; ++x)
-            sum += clamp(displayOf(texelFetch(radiance, ivec2(at * params.samples + uvec2(x, y)), 0)), 0.0, 1.0);
-    imageStore(display, ivec2(at), vec4(srgb(sum / float(params.samples * params.samples)), 1.0));
+    for (uint y = 0u; y < kSamples; ++y)
+        for (uint x = 0u; x < kSamples; ++x)
+            sum += clamp(displayOf(texelFetch(radiance, ivec2(at * kSamples + uvec2(x, y)), 0)), 0.0, 1.0);
+    imageStore(display, ivec2(at), vec4(srgb(sum / float(kSamples * kSamples)), 1.0));
 }

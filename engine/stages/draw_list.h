@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/graph/pass_context.h"
@@ -25,6 +26,19 @@ private:
     std::shared_ptr<const std::vector<gpu::DrawRecord>> draws_;
     u32 staticCount_ = 0;
     Buffer arguments_;
+};
+
+/// What one view draws.
+struct FacingLists
+{
+    DrawList closed; ///< of closed surfaces: their fronts alone
+    DrawList open;   ///< from both sides
+
+    FacingLists() = default;
+    FacingLists(Context& context, FacingDraws draws)
+        : closed(context, std::move(draws.closed)), open(context, std::move(draws.open))
+    {
+    }
 };
 
 /// Geometry in one pass, declared as vertex, index and indirect input.

@@ -61,12 +61,16 @@ Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buff
     });
 }
 
-ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SmoothTables& smoothMesh,
-                        const DrawList& smoothList, const ShadeInputs& in, ShadeTargets targets)
+ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingLists& lists,
+                        const SmoothTables& smoothMesh, const FacingLists& smoothLists, const ShadeInputs& in,
+                        ShadeTargets targets)
 {
     return graph.addPass("forward", [&](PassBuilder& pass) {
-        const CityMesh mesh(pass, tile, list);
-        const CityMesh refined(pass, smoothMesh.vertices, smoothMesh.indices, tile.instances, smoothList);
+        const CityMesh closed(pass, tile, lists.closed), open(pass, tile, lists.open);
+        const auto refined = [&](const DrawList& list) {
+            return CityMesh(pass, smoothMesh.vertices, smoothMesh.indices, tile.instances, list);
+        };
+        const CityMesh smoothClosed = refined(smoothLists.closed), smoothOpen = refined(smoothLists.open);
         const auto emission = pass.read(pass.import(tile.emission), Use::FragmentRead);
         const auto view = pass.read(in.view, Use::FragmentRead);
         const auto shadow = pass.read(in.shadow, Use::FragmentSample);
@@ -84,11 +88,12 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
             to.colors = {{out.radiance, VkClearColorValue{}, 0}};
             to.depth = {out.depth, 0.0f, 0};
             ctx.render(to, [&](Drawing& drawing) {
-                const auto draw = [&](const CityMesh& part, bool smoothed, u32 first, u32 count) {
-                    if (count == 0) return;
+                const auto draw = [&](const CityMesh& mesh, VkCullModeFlags cull, bool smoothed, u32 first) {
+                    if (first == mesh.count()) return;
                     GraphicsPipelineDesc city;
                     city.vertex = &kForwardVert[smoothReads];
                     city.fragment = &kForwardFrag[reads];
+                    city.cull = cull;
                     city.depthCompare = VK_COMPARE_OP_GREATER;
                     city.constants = {{0, mode}, {1, smoothed}, {2, emitters}};
                     CityMesh::describe(city, true);
@@ -102,11 +107,15 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
                                   texels(gpu::kForwardValueOf, valueOfVertex, VK_FORMAT_R32_UINT),
                                   texels(gpu::kForwardSmooth, smooth, kVectors)});
                     drawing.push(params);
-                    part.draw(ctx, drawing, first, count);
+                    mesh.draw(ctx, drawing, first, mesh.count() - first);
                 };
-                const u32 replaced = interpolate ? mesh.staticCount() : 0;
-                if (interpolate) draw(refined, true, 0, refined.count());
-                draw(mesh, false, replaced, mesh.count() - replaced);
+                if (interpolate) {
+                    draw(smoothOpen, VK_CULL_MODE_NONE, true, 0);
+                    draw(smoothClosed, VK_CULL_MODE_BACK_BIT, true, 0);
+                }
+                // The refined mesh stands for the static one.
+                draw(open, VK_CULL_MODE_NONE, false, interpolate ? open.staticCount() : 0);
+                draw(closed, VK_CULL_MODE_BACK_BIT, false, interpolate ? closed.staticCount() : 0);
 
                 // The background lies at depth 0, where nothing was drawn.
                 GraphicsPipelineDesc background;
@@ -124,7 +133,8 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawLis
     });
 }
 
-Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display, const gpu::ToneParams& params)
+Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display, u32 mode, u32 samples,
+                   const gpu::ToneParams& params)
 {
     return graph.addPass("tone", [&](PassBuilder& pass) {
         const auto from = pass.read(radiance, Use::ComputeSample);
@@ -132,7 +142,8 @@ Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display, c
         pass.record([=](PassContext& ctx) {
             ctx.dispatch(shaders::kToneComp,
                          {sampled(gpu::kToneInput, from, Sampler::Nearest), storage(gpu::kToneOutput, to)}, params,
-                         groupsFor2D(params.width, params.height, gpu::kToneGroup, gpu::kToneGroup));
+                         groupsFor2D(params.width, params.height, gpu::kToneGroup, gpu::kToneGroup),
+                         {{0, mode}, {1, samples}});
         });
         return to;
     });

@@ -36,11 +36,12 @@ struct ShadeTargets
 
 /// Stage 4: the city and the sky behind it. final: radiance in W/m2/sr; other modes: the quantity itself (ids: a
 /// colour, the id in alpha; depth: distance from the eye in m); background 0, or -1 in alpha for ids and depth.
-ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const DrawList& list, const SmoothTables& smoothMesh,
-                        const DrawList& smoothList, const ShadeInputs& in, ShadeTargets targets);
+ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingLists& lists,
+                        const SmoothTables& smoothMesh, const FacingLists& smoothLists, const ShadeInputs& in,
+                        ShadeTargets targets);
 
-/// Radiance to display: params.samples^2 texels of `radiance` a pixel of `display` (RGBA8, sRGB).
-[[nodiscard]] Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display,
+/// Radiance to display: samples^2 texels of `radiance` a pixel of `display` (RGBA8, sRGB). mode: gpu::kMode...
+[[nodiscard]] Ref<Image> addTone(FrameGraph& graph, Ref<Image> radiance, Ref<Image> display, u32 mode, u32 samples,
                                  const gpu::ToneParams& params);
 
 } // namespace helio

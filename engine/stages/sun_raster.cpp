@@ -12,8 +12,8 @@ constexpr double kUnlitOffset = 0.001; // m
 
 } // namespace
 
-SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const SunLists& lists, const SunView& sun, u32 view,
-                         SunPictures pictures)
+SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const FacingLists& lists, const SunView& sun,
+                         u32 view, SunPictures pictures)
 {
     return graph.addPass(concat("sun raster ", view), [&](PassBuilder& pass) {
         const CityMesh closed(pass, tile, lists.closed), open(pass, tile, lists.open);

@@ -17,16 +17,9 @@ struct SunPictures
     Ref<Image> depth; ///< D32 array
 };
 
-/// What one view of the sun draws.
-struct SunLists
-{
-    DrawList closed; ///< of closed surfaces: their fronts alone
-    DrawList open;   ///< from both sides
-};
-
 /// Stage 1, one view: the nearest surface wins. The first view may find anything in the images; each view replaces the
 /// ids and its own layer of the depth.
-SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const SunLists& lists, const SunView& sun, u32 view,
-                         SunPictures pictures);
+SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const FacingLists& lists, const SunView& sun,
+                         u32 view, SunPictures pictures);
 
 } // namespace helio

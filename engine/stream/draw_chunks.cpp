@@ -147,14 +147,20 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& i
                     const gpu::InstanceRecord& instance = tile.instances[chunk.draw.firstInstance + k];
                     growPlaced(chunk.box, instance, local);
                     const glm::mat3 world = worldFromLocal(instance);
-                    chunk.normalFromSun.push_back(normalFromSun(world));
+                    const glm::mat3 turn = normalFromSun(world);
+                    auto& turns = chunk.normalFromSun;
+                    if (std::find(turns.begin(), turns.end(), turn) == turns.end()) turns.push_back(turn);
                     // What a mirror turns inside out is drawn whole, and so are its neighbours.
                     if (!(glm::determinant(world) > 0.0f)) chunk.facing = nullptr;
                 }
                 chunks.push_back(std::move(chunk));
             }
         } else {
-            for (DrawChunk& chunk : cutStaticDraw(tile, draw)) {
+            for (u32 first = 0; first < draw.indexCount; first += 3 * kChunkTriangles) {
+                DrawChunk chunk{draw, kEmpty, nullptr, {glm::mat3(1.0f)}};
+                chunk.draw.firstIndex = draw.firstIndex + first;
+                chunk.draw.indexCount = std::min(3 * kChunkTriangles, draw.indexCount - first);
+                growPlaced(chunk.box, tile.instances[draw.firstInstance], boundsOf(tile, chunk.draw));
                 chunk.facing = sorter.sort(chunk.draw);
                 chunks.push_back(std::move(chunk));
             }
@@ -162,19 +168,6 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& i
     }
     std::stable_partition(chunks.begin(), chunks.end(),
                           [](const DrawChunk& chunk) { return isStaticDraw(chunk.draw); });
-    return chunks;
-}
-
-std::vector<DrawChunk> cutStaticDraw(const TileView& tile, const gpu::DrawRecord& draw)
-{
-    std::vector<DrawChunk> chunks;
-    for (u32 first = 0; first < draw.indexCount; first += 3 * kChunkTriangles) {
-        DrawChunk chunk{draw, kEmpty, nullptr, {glm::mat3(1.0f)}};
-        chunk.draw.firstIndex = draw.firstIndex + first;
-        chunk.draw.indexCount = std::min(3 * kChunkTriangles, draw.indexCount - first);
-        growPlaced(chunk.box, tile.instances[draw.firstInstance], boundsOf(tile, chunk.draw));
-        chunks.push_back(std::move(chunk));
-    }
     return chunks;
 }
 
@@ -186,10 +179,10 @@ std::vector<gpu::DrawRecord> visibleDraws(std::span<const DrawChunk> chunks, con
     return draws;
 }
 
-SunDraws sunDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld, const glm::vec3& towardsSun)
+FacingDraws facingDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld, const glm::vec4& viewer)
 {
-    SunDraws draws;
-    std::vector<glm::vec3> suns;
+    FacingDraws draws;
+    std::vector<glm::vec3> towards;
     for (const DrawChunk& chunk : chunks) {
         if (!mayShow(chunk.box, clipFromWorld)) continue;
         if (!chunk.facing) {
@@ -199,13 +192,16 @@ SunDraws sunDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWo
         gpu::DrawRecord part = chunk.draw;
         part.indexCount = chunk.facing->openCount;
         append(draws.open, part);
-        suns.clear();
-        for (const glm::mat3& m : chunk.normalFromSun) suns.push_back(m * towardsSun);
+        // Seen from a point, a normal faces it from somewhere in the box if it does from one of its corners.
+        towards.clear();
+        for (u32 k = 0; k < (viewer.w == 0.0f ? 1u : 8u); ++k)
+            for (const glm::mat3& m : chunk.normalFromSun)
+                towards.push_back(m * (glm::vec3(viewer) - viewer.w * corner(chunk.box, k)));
         for (const FacingRange& range : chunk.facing->ranges) {
             const bool faces =
-                range.always || std::any_of(suns.begin(), suns.end(), [&](const glm::vec3& sun) {
+                range.always || std::any_of(towards.begin(), towards.end(), [&](const glm::vec3& direction) {
                     return std::any_of(range.normals.begin(), range.normals.end(),
-                                       [&](const glm::vec3& normal) { return glm::dot(normal, sun) > 0.0f; });
+                                       [&](const glm::vec3& normal) { return glm::dot(normal, direction) > 0.0f; });
                 });
             if (!faces) continue;
             part.firstIndex = range.firstIndex;

@@ -38,7 +38,8 @@ struct DrawChunk
     gpu::DrawRecord draw{};
     Box box;
     std::shared_ptr<const FacingMesh> facing; ///< of the draw's triangles
-    std::vector<glm::mat3> normalFromSun;     ///< an instance: light from s falls on a local normal n if n . (m s) > 0
+    std::vector<glm::mat3>
+        normalFromSun; ///< of its instances, each once: light from s falls on a local normal n if n . (m s) > 0
 };
 
 /// Does this draw belong to the static mesh (instance 0), or to an asset?
@@ -53,9 +54,6 @@ inline constexpr u32 kChunkInstances = 32;
 /// Cuts the tile's draws into chunks with their bounds. The static mesh comes first; apart from that
 /// chunks keep the order of the draws. indices: the tile's, reordered inside the chunks by facing.
 std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& indices);
-/// One draw of the static mesh alone, in the order of its indices and without facing.
-std::vector<DrawChunk> cutStaticDraw(const TileView& tile, const gpu::DrawRecord& draw);
-
 /// Which triangles belong to closed surfaces? positions: three corners each. A connected part (corners at the same
 /// place) is closed if every edge has as many triangles on its one side as on its other and it encloses a volume with
 /// its faces outwards. Only the back of a closed surface may be left out from a picture of what light meets first:
@@ -71,12 +69,13 @@ FacingMesh sortByFacing(std::span<const glm::vec3> positions, const std::vector<
 /// planes -w <= x <= w, -w <= y <= w, 0 <= z <= w. Neighbouring chunks of one draw become one draw again.
 std::vector<gpu::DrawRecord> visibleDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld);
 
-/// The same for a picture from the sun, without what certainly shows the sun its back: draws of closed surfaces, of
-/// which the device may leave out back faces, and the rest.
-struct SunDraws
+/// The same without what certainly shows the viewer its back: draws of closed surfaces, of which the device may leave
+/// out back faces, and the rest. viewer: the eye, with 1 as its last component, or the direction towards the sun, with
+/// 0. An eye inside a closed body looks out of it.
+struct FacingDraws
 {
     std::vector<gpu::DrawRecord> closed, open;
 };
-SunDraws sunDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld, const glm::vec3& towardsSun);
+FacingDraws facingDraws(std::span<const DrawChunk> chunks, const glm::mat4& clipFromWorld, const glm::vec4& viewer);
 
 } // namespace helio

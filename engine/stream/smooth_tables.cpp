@@ -12,7 +12,7 @@ namespace helio {
 
 SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads)
 {
-    const SmoothMesh mesh = buildSmoothMesh(tile.vertices, staticTriangles(tile), tile.patches);
+    SmoothMesh mesh = buildSmoothMesh(tile.vertices, staticTriangles(tile), tile.patches);
     SmoothTables t;
     t.cornerCount = mesh.cornerCount;
     t.patchCount = u32(tile.patches.size());
@@ -20,6 +20,13 @@ SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads read
     const size_t largest =
         std::max({values.size(), mesh.valueOfVertex.size(), mesh.patchWeights.size(), mesh.fanWeights.size()});
     t.reads = canRead(context, reads, largest) ? reads : Reads::Storage;
+    const gpu::DrawRecord draw{u32(mesh.indices.size()), 1, 0, 0, 0};
+    TileView refined = tile;
+    refined.vertices = mesh.vertices;
+    const std::vector<u32> asBuilt = mesh.indices;
+    refined.indices = asBuilt;
+    refined.draws = {&draw, 1};
+    t.chunks = buildDrawChunks(refined, mesh.indices);
     t.vertices = makeBuffer(context, "smooth vertices", mesh.vertices);
     t.indices = makeBuffer(context, "smooth indices", mesh.indices);
     t.valueOfVertex = makeBuffer(context, "value of vertex", mesh.valueOfVertex);
@@ -31,10 +38,6 @@ SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads read
     t.fanWeightRows = makeBuffer(context, "fan weight rows", mesh.fanWeightRows);
     t.fanWeights = makeBuffer(context, "fan weights", mesh.fanWeights);
     t.values = makeBuffer(context, "smooth light", values);
-    TileView refined = tile;
-    refined.vertices = mesh.vertices;
-    refined.indices = mesh.indices;
-    t.chunks = cutStaticDraw(refined, {u32(mesh.indices.size()), 1, 0, 0, 0});
     return t;
 }
 

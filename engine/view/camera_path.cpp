@@ -43,9 +43,8 @@ Result<PathKey> parseKey(const std::string& line)
     PathKey key;
     Camera& c = key.camera;
     int used = 0;
-    const int count =
-        std::sscanf(line.c_str(), "%lf %lf,%lf,%lf,%lf,%lf,%lf%n", &key.seconds, &c.eye.x, &c.eye.y, &c.eye.z,
-                    &c.target.x, &c.target.y, &c.target.z, &used);
+    const int count = std::sscanf(line.c_str(), "%lf %lf,%lf,%lf,%lf,%lf,%lf%n", &key.seconds, &c.eye.x, &c.eye.y,
+                                  &c.eye.z, &c.target.x, &c.target.y, &c.target.z, &used);
     std::string rest = count == 7 ? line.substr(size_t(used)) : "";
     rest.erase(rest.find_last_not_of(" \t\r") + 1);
     if (count == 7 && !rest.empty()) {

@@ -167,12 +167,12 @@ void LightSolver::sampleSun(const LightState& light)
     SunPictures pictures{graph.import(*ids_), graph.import(*shadow_)};
     Ref<Buffer> counts = graph.import(counts_);
     if (report_.sunSamples == 0) counts = addFill(graph, counts, 0);
-    std::vector<SunLists> lists;
+    std::vector<FacingLists> lists;
     lists.reserve(sunView_.viewCount());
     for (u32 view = 0; view < sunView_.viewCount(); ++view) {
-        SunDraws draws;
-        if (raster) draws = sunDraws(tile_.chunks, sunView_.clipFromWorld(view), glm::vec3(light.towardsSun));
-        lists.push_back({DrawList(context_, std::move(draws.closed)), DrawList(context_, std::move(draws.open))});
+        FacingDraws draws;
+        if (raster) draws = facingDraws(tile_.chunks, sunView_.clipFromWorld(view), glm::vec4(light.towardsSun, 0.0));
+        lists.emplace_back(context_, std::move(draws));
         pictures = addSunRaster(graph, tile_, lists.back(), sunView_, view, pictures);
         counts =
             addHistogram(graph, pictures.ids, counts, sunView_.width, sunView_.height, tile_.patchCount, histogram_);

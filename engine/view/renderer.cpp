@@ -125,7 +125,7 @@ struct Renderer::Impl
     SmoothTables smooth; // empty until it is needed
     u64 smoothed = 0;    // solveCount of its values
     FrameImages images;
-    DrawList drawn, smoothDrawn;
+    FacingLists drawn, smoothDrawn;
     Buffer values;
     double largestValue = 1.0;
 };
@@ -242,8 +242,9 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
         viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display, r.ground);
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
-    r.drawn = DrawList(r.context, visibleDraws(r.tile.chunks, params.clipFromWorld));
-    r.smoothDrawn = DrawList(r.context, visibleDraws(r.smooth.chunks, params.clipFromWorld));
+    const glm::vec4 eye(glm::vec3(camera.eye), 1.0f);
+    r.drawn = FacingLists(r.context, facingDraws(r.tile.chunks, params.clipFromWorld, eye));
+    r.smoothDrawn = FacingLists(r.context, facingDraws(r.smooth.chunks, params.clipFromWorld, eye));
 
     ShadeInputs in;
     in.params = params;
@@ -263,11 +264,9 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     gpu::ToneParams tone{};
     tone.width = width;
     tone.height = height;
-    tone.samples = samples;
-    tone.mode = options.mode;
     tone.exposure = float(autoExposure(report.meanRadiosity, r.light) * std::exp2(options.exposureStops));
     tone.scale = float(numbers ? r.largestValue : falseColourScale(options.mode, report.meanRadiosity, r.light));
-    return addTone(graph, targets.radiance, graph.import(r.images.display), tone);
+    return addTone(graph, targets.radiance, graph.import(r.images.display), options.mode, samples, tone);
 }
 
 const Image& Renderer::displayImage() const

@@ -66,19 +66,17 @@ struct ViewRecord {
 };
 HELIO_SIZE(ViewRecord, 272);
 
-// tone: kToneSamples x kToneSamples samples a pixel, tone mapped each, averaged, sRGB
+// tone: samples x samples texels a pixel, tone mapped each, averaged, sRGB
 HELIO_CONSTANT uint kToneGroup = 8u;
 HELIO_CONSTANT uint kToneInput = 0u;       // radiance image
 HELIO_CONSTANT uint kToneOutput = 1u;      // rgba8 image
 struct ToneParams {        // push constant
     uint width;            // of the output
     uint height;
-    uint samples;          // input texels a pixel, in x and in y
-    uint mode;             // kMode...
     float exposure;        // display scale of a radiance: 1 / (W/m2/sr)
     float scale;           // false colour: value shown as white
 };
-HELIO_SIZE(ToneParams, 24);
+HELIO_SIZE(ToneParams, 16);
 
 HELIO_SHARED_END
 #endif

@@ -230,6 +230,8 @@ TEST_F(GraphExecuteDeathTest, WrongPushConstantsAbort)
     });
     ASSERT_TRUE(graph.compile(context()));
     Recorder recorder(context());
+    // A process of its own: a fork of this one need not have a working device.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_DEATH(run(recorder, graph), "8 bytes of push constants, the shader has 4");
 }
 

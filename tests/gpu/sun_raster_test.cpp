@@ -22,9 +22,9 @@ const glm::vec4 kGrey(0.5f);
 class SunRasterTest : public GpuTest
 {
 protected:
-    std::vector<u32> ids(const TileTables& tile, const SunView& sun, SunDraws draws)
+    std::vector<u32> ids(const TileTables& tile, const SunView& sun, FacingDraws draws)
     {
-        const SunLists lists{DrawList(context(), std::move(draws.closed)), DrawList(context(), std::move(draws.open))};
+        const FacingLists lists(context(), std::move(draws));
         const Image picture(context(), {"ids", sun.width, sun.height, kIdFormat, 1,
                                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
         const Image depth(
@@ -71,7 +71,8 @@ TEST_F(SunRasterTest, LeavingBacksOutChangesNothing)
         const SunView sun = fitSunView(boxes, towardsSun, {.texel = 0.1, .maxViewSize = 2048});
         ASSERT_EQ(sun.viewCount(), 1u);
         const glm::mat4 clip = sun.clipFromWorld(0);
-        SunDraws all{{}, visibleDraws(tile->chunks, clip)}, some = sunDraws(tile->chunks, clip, glm::vec3(towardsSun));
+        FacingDraws all{{}, visibleDraws(tile->chunks, clip)},
+            some = facingDraws(tile->chunks, clip, glm::vec4(towardsSun, 0.0));
         u64 closed = 0, everything = 0;
         for (const gpu::DrawRecord& draw : some.closed) closed += u64(draw.indexCount) * draw.instanceCount;
         for (const gpu::DrawRecord& draw : all.open) everything += u64(draw.indexCount) * draw.instanceCount;

@@ -29,12 +29,13 @@ constexpr Tolerance kRadiosityTolerance{0.5, 0.001, 0.05};
 
 struct Screen
 {
-    const char* file; ///< of the golden
+    std::string file; ///< of the golden
     TestPack pack;
     const char* camera;
     double sunAzimuth, sunElevation;
     ViewOptions view;
     Tolerance tolerance;
+    double dni = 800.0, dhi = 120.0; ///< W/m2
 };
 
 void PrintTo(const Screen& screen, std::ostream* out)
@@ -51,9 +52,45 @@ constexpr const char* kRowhouseCamera = "0,-60,30,0,0,1,48";
 constexpr const char* kRowhouseStreet = "-20,-20,1.7,-17,-6,4,60";
 constexpr const char* kTowerCamera = "20,-190,110,0,0,24,45";
 constexpr const char* kTowerStreet = "-50,-75,1.7,-42,-20,24,65";
+// Down into the court, and up from between the towers: where light goes round more than one corner.
+constexpr const char* kCourtCamera = "30,-14,26,12,8,2,50";
+constexpr const char* kTowerFoot = "-30,-60,9,0,10,20,65";
 constexpr const char* kSceneCamera = "12,-27,54,48,51,4,38";
 
-const Screen kScreens[] = {
+/// Light by the patch and interpolated, of two cities under three suns and under a sky without one.
+std::vector<Screen> shadingScreens()
+{
+    struct City
+    {
+        const char* name;
+        TestPack pack;
+        const char* camera;
+    };
+    struct Sky
+    {
+        const char* name;
+        double azimuth, elevation, dni, dhi;
+    };
+    std::vector<Screen> screens;
+    for (const City& city : {City{"court", TestPack::City, kCourtCamera}, City{"tower", TestPack::Tower, kTowerFoot}})
+        for (const Sky& sky : {Sky{"morning", 95, 14, 500, 60}, Sky{"noon", 180, 60, 850, 100},
+                               Sky{"evening", 250, 25, 650, 80}, Sky{"overcast", 0, -10, 0, 200}})
+            for (const bool smooth : {false, true}) {
+                Screen s{concat("shading_", city.name, "_", sky.name, smooth ? "_smooth.png" : "_flat.png"),
+                         city.pack,
+                         city.camera,
+                         sky.azimuth,
+                         sky.elevation,
+                         {.samples = 2, .smoothLight = smooth},
+                         kDisplayTolerance};
+                s.dni = sky.dni;
+                s.dhi = sky.dhi;
+                screens.push_back(s);
+            }
+    return screens;
+}
+
+const Screen kStageScreens[] = {
     {"city_ids.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeId}, kIdentical},
     {"city_depth.png", TestPack::City, kCityCamera, 215, 35, {.mode = gpu::kModeDepth}, kDisplayTolerance},
     {"city_sun_visibility.png",
@@ -98,6 +135,12 @@ const Screen kScreens[] = {
     {"scene_s_ids.png", TestPack::SceneS, kSceneCamera, 200, 40, {.mode = gpu::kModeId}, kIdentical},
 };
 
+const std::vector<Screen> kScreens = [] {
+    std::vector<Screen> screens = shadingScreens();
+    screens.insert(screens.end(), std::begin(kStageScreens), std::end(kStageScreens));
+    return screens;
+}();
+
 GoldenFolders goldenFolders()
 {
     const std::string driver = driverFolder(testContext().facts().driver);
@@ -108,7 +151,8 @@ GoldenFolders goldenFolders()
 TestImage renderScreen(const Screen& screen)
 {
     Renderer& renderer = testRenderer(screen.pack);
-    renderer.setSun(screen.sunAzimuth, screen.sunElevation, 800.0);
+    renderer.setSun(screen.sunAzimuth, screen.sunElevation, screen.dni);
+    renderer.setSky(screen.dhi);
     const Camera camera = parseCamera(screen.camera, testPack(screen.pack)).value();
     const Picture picture = renderer.render(camera, kWidth, kHeight, screen.view);
     TestImage image = makeTestImage(kWidth, kHeight, 0);
@@ -175,10 +219,9 @@ TEST(Goldens, CheckerFailsOnAWrongPicture)
 
 TEST(Goldens, CheckerFailsOnTheShadowsOfAnotherSun)
 {
-    const Screen* const final = std::find_if(std::begin(kScreens), std::end(kScreens), [](const Screen& s) {
-        return std::string_view(s.file) == "city_final.png";
-    });
-    ASSERT_NE(final, std::end(kScreens));
+    const auto final =
+        std::find_if(kScreens.begin(), kScreens.end(), [](const Screen& s) { return s.file == "city_final.png"; });
+    ASSERT_NE(final, kScreens.end());
     Screen screen = *final;
     screen.sunAzimuth += 2; // the shadows move by some decimetres
     static TestImage wrong;

@@ -17,14 +17,14 @@ constexpr u32 kTriangles = 1000000, kSize = 2048;
 void addSunCases(CaseList& cases, const BoxCity& city)
 {
     SunScene& c = cases.keep(makeSunScene(cases.context(), city, kSize));
-    const auto raster = [&](const SunLists& lists) {
+    const auto raster = [&](const FacingLists& lists) {
         return [&](FrameGraph& graph) {
             (void)addSunRaster(graph, c.tile, lists, c.sun, 0, {graph.import(c.ids), graph.import(c.depth)});
         };
     };
     // The same picture, outlines aside (see the stage's test).
     std::vector<std::vector<u32>> pictures;
-    for (const SunLists* lists : {&c.everything, &c.facing}) {
+    for (const FacingLists* lists : {&c.everything, &c.facing}) {
         FrameGraph graph("check");
         raster (*lists)(graph);
         Recorder recorder(cases.context());
@@ -34,7 +34,7 @@ void addSunCases(CaseList& cases, const BoxCity& city)
     u64 apart = 0;
     for (size_t k = 0; k < pictures[0].size(); ++k) apart += pictures[0][k] != pictures[1][k];
     HELIO_CHECK(apart < pictures[0].size() / 1000, apart, " texels differ");
-    const auto withTriangles = [&](const char* name, const SunLists& lists) {
+    const auto withTriangles = [&](const char* name, const FacingLists& lists) {
         cases.addGraph(name, raster(lists), "sun raster");
         std::printf("%s: %llu triangles, %llu texels of %zu differ\n", name,
                     static_cast<unsigned long long>(lists.closed.triangleCount() + lists.open.triangleCount()),
@@ -94,9 +94,9 @@ std::shared_ptr<SunScene> makeSunScene(Context& context, const BoxCity& city, u3
     c->sun = fitSunView(boxes, towardsSun,
                         {.texel = 1e-3, .maxTexels = u64(size) * size, .maxViewSize = size, .maxViews = 1});
     const glm::mat4 clip = c->sun.clipFromWorld(0);
-    SunDraws draws = sunDraws(tables->chunks, clip, glm::vec3(towardsSun));
-    c->everything = {DrawList(context, {}), DrawList(context, visibleDraws(tables->chunks, clip))};
-    c->facing = {DrawList(context, std::move(draws.closed)), DrawList(context, std::move(draws.open))};
+    FacingDraws draws = facingDraws(tables->chunks, clip, glm::vec4(towardsSun, 0.0));
+    c->everything = FacingLists(context, {{}, visibleDraws(tables->chunks, clip)});
+    c->facing = FacingLists(context, std::move(draws));
     c->tile = std::move(*tables);
     c->ids = Image(
         context, {"ids", c->sun.width, c->sun.height, kIdFormat, 1,

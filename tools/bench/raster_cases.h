@@ -11,7 +11,7 @@ struct SunScene
 {
     TileTables tile;
     SunView sun;
-    SunLists everything, facing;
+    FacingLists everything, facing;
     Image ids, depth;
 };
 /// A city of so many triangles under one view of at most size^2 texels; nothing drawn yet.

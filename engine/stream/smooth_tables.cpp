@@ -10,13 +10,21 @@
 
 namespace helio {
 
-SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads)
+SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads, u64 mostBytes)
 {
     SmoothMesh mesh = buildSmoothMesh(tile.vertices, staticTriangles(tile), tile.patches);
     SmoothTables t;
     t.cornerCount = mesh.cornerCount;
     t.patchCount = u32(tile.patches.size());
     const std::vector<glm::vec4> values(2 * (size_t(t.cornerCount) + t.patchCount + mesh.fanWeightRows.size() - 1));
+    const u64 bytes = std::max({values.size() * sizeof(glm::vec4), mesh.valueOfVertex.size() * sizeof(u32),
+                                mesh.patchWeights.size() * sizeof(gpu::CornerWeightRecord),
+                                mesh.fanWeights.size() * sizeof(gpu::CornerWeightRecord)});
+    if (bytes > mostBytes) {
+        SmoothTables none = uploadSmoothMesh(context, {}, reads, mostBytes);
+        none.tooLarge = bytes;
+        return none;
+    }
     const size_t largest =
         std::max({values.size(), mesh.valueOfVertex.size(), mesh.patchWeights.size(), mesh.fanWeights.size()});
     t.reads = canRead(context, reads, largest) ? reads : Reads::Storage;

@@ -17,10 +17,12 @@ struct SmoothTables
     Buffer cornerRows, cornerPatches, patchRows, patchWeights, fanRows, fanWeightRows, fanWeights;
     Buffer values; ///< written by addSmoothLight: two vec4 a corner, then a patch, then a fan
     std::vector<DrawChunk> chunks;
+    u64 tooLarge = 0; ///< bytes of the largest array, where the device cannot bind it: the rest is empty then
 };
 
 /// Refines the tile's static mesh and puts it on the device. reads: how shaders read it, if its arrays are not too
-/// large for that. A tile without patches makes empty tables.
-SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads);
+/// large for that. mostBytes: the largest array that may be bound, at most what the device can
+/// (DeviceFacts::maxStorageBufferBytes). A tile without patches makes empty tables.
+SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads, u64 mostBytes);
 
 } // namespace helio

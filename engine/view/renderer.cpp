@@ -58,7 +58,7 @@ struct Renderer::Impl
     Impl(Context& c, const TileView& t, TileTables tables, double north, const RendererOptions& options)
         : context(c), view(t), northDeg(north), tile(std::move(tables)), solver(c, tile, options),
           viewRecord(c, {"view", sizeof(gpu::ViewRecord), Memory::Upload}), recorder(c),
-          smooth(uploadSmoothMesh(c, {}, tile.reads))
+          smooth(uploadSmoothMesh(c, {}, tile.reads, smoothBytes()))
     {
         note = contractionNote(tile.contraction, solver.spectrum());
         ground.z = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
@@ -66,10 +66,15 @@ struct Renderer::Impl
         ground.rho = glm::dvec3(farGroundOf(t));
     }
 
-    /// The mesh of interpolated light is made when a picture first asks for it.
-    void needSmoothMesh()
+    /// What the mesh of interpolated light may take in one array.
+    u64 smoothBytes() { return std::min(context.facts().maxStorageBufferBytes, solver.options().mostSmoothBytes); }
+
+    /// The mesh of interpolated light is made when a picture first asks for it. False: it is too large for the device.
+    bool needSmoothMesh()
     {
-        if (smooth.patchCount == 0) smooth = uploadSmoothMesh(context, view, tile.reads);
+        if (smooth.patchCount == 0 && smooth.tooLarge == 0)
+            smooth = uploadSmoothMesh(context, view, tile.reads, smoothBytes());
+        return smooth.tooLarge == 0;
     }
 
     /// Interpolated light, worked out anew when the light changed.
@@ -230,8 +235,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const SolveReport& report = r.solver.solve(r.light);
     const bool exact = options.mode == gpu::kModeId || options.mode == gpu::kModeDepth;
     const u32 samples = exact ? 1 : options.samples;
-    const bool smooth = options.mode == gpu::kModeFinal && options.smoothLight;
-    if (smooth) r.needSmoothMesh();
+    const bool smooth = options.mode == gpu::kModeFinal && options.smoothLight && r.needSmoothMesh();
     r.needImages(width, height, samples);
     const bool numbers = options.mode >= gpu::kModeLevel;
     if (numbers) r.needValues(options);
@@ -290,6 +294,9 @@ Picture Renderer::render(const Camera& camera, u32 width, u32 height, const View
     picture.width = width;
     picture.height = height;
     picture.passes = r.recorder.times();
+    if (options.mode == gpu::kModeFinal && options.smoothLight && r.smooth.tooLarge > 0)
+        picture.note = concat("light is drawn by the patch: interpolated it takes ", r.smooth.tooLarge >> 20,
+                              " MiB in one buffer, and the device binds at most ", r.smoothBytes() >> 20);
     picture.display = downloadTexels<u8>(r.context, r.images.display);
     if (options.mode >= gpu::kModeLevel)
         drawLegend(picture, r.largestValue,

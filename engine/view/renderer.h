@@ -38,6 +38,7 @@ struct RendererOptions
     SolveOptions solve;
     std::optional<HistogramVariant> histogram; ///< none: the one that is faster on the device
     UploadOptions upload;
+    u64 mostSmoothBytes = ~u64(0); ///< of an array of the interpolated mesh; with more light is drawn by the patch
     /// Called with every graph that runs, in DOT (FrameGraph::dump), if it is given.
     std::function<void(const std::string& dot)> onGraph;
 };
@@ -68,8 +69,9 @@ struct ViewOptions
     u32 mode = gpu::kModeFinal; ///< gpu::kMode...
     u32 picked = 0;             ///< patch whose links kModeLinks shows
     u32 samples = 1;            ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
-    bool smoothLight = true;    ///< final: interpolate E_sky and E_indirect over coplanar patches (display only)
-    bool display = true; ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
+    bool smoothLight = true; ///< final: interpolate E_sky and E_indirect over coplanar patches (display only), if the
+                             ///< device can hold that; else Picture::note says so
+    bool display = true;     ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
     double exposureStops = 0.0; ///< added to the automatic exposure
 };
 
@@ -80,6 +82,7 @@ struct Picture
     std::vector<u8> display;       ///< RGBA, sRGB
     std::vector<glm::vec4> values; ///< linear, mean of the samples: see addForward for the unit of each mode
     std::vector<PassTime> passes;
+    std::string note; ///< one sentence if something of the view could not be had; else empty
 };
 
 /// Light of every patch, W/m2: linear r, g, b, broadband solar.

@@ -347,6 +347,22 @@ TEST_F(RendererTest, SameBytesTwice)
     EXPECT_EQ(std::memcmp(tablesA.sun.data(), tablesB.sun.data(), tablesA.sun.size() * 16), 0);
 }
 
+TEST_F(RendererTest, ADeviceTooSmallForInterpolatedLightDrawsByThePatchAndSaysSo)
+{
+    Yard yard;
+    RendererOptions options;
+    options.mostSmoothBytes = 64;
+    auto small = make(yard.b.view(), options);
+    auto large = make(yard.b.view());
+    Camera camera;
+    camera.eye = {0, 0, 12};
+    camera.target = {0, 0, 0};
+    const Picture flat = small->render(camera, 32, 32, {});
+    EXPECT_EQ(flat.note.rfind("light is drawn by the patch: interpolated it takes ", 0), 0u) << flat.note;
+    EXPECT_EQ(flat.display, large->render(camera, 32, 32, {.smoothLight = false}).display);
+    EXPECT_EQ(large->render(camera, 32, 32, {}).note, "");
+}
+
 TEST_F(RendererTest, InterpolatedLightHasNoStepsAndFollowsTheSky)
 {
     TileBuilder b; // two halves of a plane, one sees twice as much sky

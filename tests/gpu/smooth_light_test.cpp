@@ -45,7 +45,7 @@ TEST_F(SmoothLightTest, AgreesWithTheTwin)
                  indirectBuffer = makeBuffer(context(), "indirect", indirect);
     for (const Reads reads : {Reads::Texels, Reads::Images, Reads::Storage}) {
         if (!canRead(context(), reads, mesh.indices.size())) continue;
-        const SmoothTables tables = uploadSmoothMesh(context(), view, reads);
+        const SmoothTables tables = uploadSmoothMesh(context(), view, reads, context().facts().maxStorageBufferBytes);
         EXPECT_EQ(tables.reads, reads);
         Recorder recorder(context());
         for (int run = 0; run < 2; ++run) { // the second starts from the values of the first

@@ -80,6 +80,7 @@ void printAudit(const EnergyAudit& audit)
 void printPicture(const Picture& picture)
 {
     std::printf("  %-28s %9.2f ms\n", "4 forward shading, tone", totalTime(picture.passes));
+    if (!picture.note.empty()) std::printf("Note: %s\n", picture.note.c_str());
 }
 
 std::string describeLight(const RenderOptions& o, const Daylight& light, const SolveReport& report)

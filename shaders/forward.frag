@@ -85,7 +85,7 @@ vec3 hashColour(uint id)
 
 void main()
 {
-    // Polygons are drawn from both sides: the normal follows the side that is seen.
+    // Open surfaces are drawn from both sides: the normal follows the side that is seen.
     vec3 seen = cross(dFdx(vFromEye), dFdy(vFromEye));
     seen = dot(seen, vFromEye) > 0.0 ? -seen : seen;
     vec3 normal = normalize(vNormal);

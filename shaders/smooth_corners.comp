@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stage 4, option: E_sky and E_indirect at a corner of the smooth mesh. First the mean over the patches that meet there; in
-// later rounds it moves half as far as the middles of these patches are from their means, so that light which rises evenly
-// ends up without a peak in the middle of each patch. For pictures; tables use the raw values.
+// Stage 4, option: E_sky and E_indirect at a corner of the smooth mesh. First the mean over the patches that meet
+// there; in later rounds it moves half as far as the middles of these patches are from their means, so that light which
+// rises evenly ends up without a peak in the middle of each patch. For pictures; tables use the raw values.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -37,6 +37,6 @@ void main()
     }
     const vec4 skyFrom = params.round == 0u ? vec4(0.0) : values[2u * i];
     const vec4 indirectFrom = params.round == 0u ? vec4(0.0) : values[2u * i + 1u];
-    values[2u * i] = clamp(skyFrom + share * skyMove, vec4(0.0), kSmoothLimit * skyLeast);
-    values[2u * i + 1u] = clamp(indirectFrom + share * indirectMove, vec4(0.0), kSmoothLimit * indirectLeast);
+    values[2u * i] = clamp(skyFrom + share * skyMove, vec4(0.0), kSmoothLimit * max(skyLeast, 0.0));
+    values[2u * i + 1u] = clamp(indirectFrom + share * indirectMove, vec4(0.0), kSmoothLimit * max(indirectLeast, 0.0));
 }

@@ -60,8 +60,8 @@ struct TileView
     std::span<const gpu::ChildSlopeRecord> childSlopes;
     /// One a sky link, or empty: the middle of what the patch sees of the sky patch, two snorm16 (SkyTable::offset).
     std::span<const u32> skyOffsets;
-    /// One a patch, or empty: the error of its E_indirect that the bake expects, rms, as a share of the scene's mean
-    /// E_indirect.
+    /// One a patch, or empty: the error of its E_indirect that the bake expects, rms, as a share of the mean E_indirect
+    /// of all patches (PredictedError::ofPatch).
     std::span<const float> patchErrors;
 };
 

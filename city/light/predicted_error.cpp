@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/light/predicted_error.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -140,10 +139,16 @@ PredictedError predictError(const NodeTree& tree, const LinkTable& links, const 
     const Errors light(area, fine, std::vector<glm::dvec4>(count, glm::dvec4(0.0)), 1.0);
     const glm::dvec4 ofLight = light.rms(area);
     const glm::dvec4 share = (byLinks * byLinks + byPatches * byPatches) / glm::max(ofLight * ofLight, 1e-30);
-    for (const u32 whole : split.wholeOf) {
+    double lit = 0.0, all = 0.0;
+    for (u32 i = 0; i < count; ++i) {
+        lit += area[i];
+        all += tree.patches[i].area;
+    }
+    for (u32 i = 0; i < count; ++i) {
+        const u32 whole = split.wholeOf[i];
         const glm::dvec4 own = ofLinks.squares[whole] + ofPatches.squares[whole];
         const glm::dvec4 square = glm::mix(own, share * light.squares[whole], kShareOfLight);
-        error.ofPatch.push_back(float(overSuns(glm::sqrt(square))));
+        error.ofPatch.push_back(tree.patches[i].covered ? 0.0f : float(overSuns(glm::sqrt(square)) * all / lit));
     }
     return error;
 }

@@ -24,8 +24,9 @@ struct PredictedError
     double sky = 0.0;     ///< the same under a uniform sky
     double links = 0.0;   ///< of `total`: what fewer links would change
     double patches = 0.0; ///< and what light inside patches changes
-    /// The expected error of each patch alone, rms over the suns, as a share of the scene's mean E_indirect; the area
-    /// mean of its square is total^2. Half of the square is the patch's own, half what all patches err by, in
+    /// The expected error of each patch alone, rms over the suns, as a share of the mean E_indirect of all patches
+    /// (covered ones have none, and no error). Parts of one patch share its error: what it errs by before it is cut.
+    /// The area mean of the square is total^2. Half of the square is the patch's own, half what all patches err by, in
     /// proportion to the patch's light: two solutions that agree on one patch by chance do not make it exact.
     std::vector<float> ofPatch;
 };

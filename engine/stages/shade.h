@@ -11,7 +11,8 @@ inline constexpr VkFormat kRadianceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kDisplayFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
 /// E_sky and E_indirect at the corners and in the middles of the smooth mesh, W/m2: see SmoothTables::values. The mean
-/// over a patch is the patch's own value. sky: vec4 a patch; indirect: vec4 a node, patches first; none negative.
+/// over a patch is the patch's own value. sky: vec4 a patch; indirect: vec4 a node, patches first. A patch whose own
+/// value is negative keeps 0.
 [[nodiscard]] Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> sky,
                                          Ref<Buffer> indirect);
 

@@ -42,7 +42,9 @@ struct SunView
 SunView shiftedView(const SunView& view, u32 sample);
 
 /// Fits the picture to the boxes: the rectangle of smallest area (over all rolls about the direction) that holds them,
-/// with a margin of one texel. A long canyon gets pixels shaped to it. towardsSun: unit vector. boxes: at least one.
+/// with a margin of one to two texels. Texels lie fast on the centre of the boxes, and their size is the one asked for
+/// times a power of 1.02, so that a sun that moves a little moves them little. A long canyon gets pixels shaped to it.
+/// towardsSun: unit vector. boxes: at least one.
 SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunViewOptions& options);
 
 } // namespace helio

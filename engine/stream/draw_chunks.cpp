@@ -100,8 +100,8 @@ private:
     std::vector<bool> closed_;
 };
 
-/// Normals go by the cofactors of the transform: n . (M^-1 s) |M| > 0 is light from s on the outside of a local n.
-glm::mat3 normalFromSun(const glm::mat3& world)
+/// Normals go by the cofactors of the transform: n . (M^-1 s) |M| > 0 where the outside of a local n is seen from s.
+glm::mat3 localFromDirection(const glm::mat3& world)
 {
     return glm::determinant(world) * glm::inverse(world);
 }
@@ -147,8 +147,8 @@ std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& i
                     const gpu::InstanceRecord& instance = tile.instances[chunk.draw.firstInstance + k];
                     growPlaced(chunk.box, instance, local);
                     const glm::mat3 world = worldFromLocal(instance);
-                    const glm::mat3 turn = normalFromSun(world);
-                    auto& turns = chunk.normalFromSun;
+                    const glm::mat3 turn = localFromDirection(world);
+                    auto& turns = chunk.localFromDirection;
                     if (std::find(turns.begin(), turns.end(), turn) == turns.end()) turns.push_back(turn);
                     // What a mirror turns inside out is drawn whole, and so are its neighbours.
                     if (!(glm::determinant(world) > 0.0f)) chunk.facing = nullptr;
@@ -195,7 +195,7 @@ FacingDraws facingDraws(std::span<const DrawChunk> chunks, const glm::mat4& clip
         // Seen from a point, a normal faces it from somewhere in the box if it does from one of its corners.
         towards.clear();
         for (u32 k = 0; k < (viewer.w == 0.0f ? 1u : 8u); ++k)
-            for (const glm::mat3& m : chunk.normalFromSun)
+            for (const glm::mat3& m : chunk.localFromDirection)
                 towards.push_back(m * (glm::vec3(viewer) - viewer.w * corner(chunk.box, k)));
         for (const FacingRange& range : chunk.facing->ranges) {
             const bool faces =

@@ -38,8 +38,8 @@ struct DrawChunk
     gpu::DrawRecord draw{};
     Box box;
     std::shared_ptr<const FacingMesh> facing; ///< of the draw's triangles
-    std::vector<glm::mat3>
-        normalFromSun; ///< of its instances, each once: light from s falls on a local normal n if n . (m s) > 0
+    /// Of its instances, each once: the outside of a local normal n is seen from direction s if n . (m s) > 0.
+    std::vector<glm::mat3> localFromDirection;
 };
 
 /// Does this draw belong to the static mesh (instance 0), or to an asset?
@@ -54,6 +54,7 @@ inline constexpr u32 kChunkInstances = 32;
 /// Cuts the tile's draws into chunks with their bounds. The static mesh comes first; apart from that
 /// chunks keep the order of the draws. indices: the tile's, reordered inside the chunks by facing.
 std::vector<DrawChunk> buildDrawChunks(const TileView& tile, std::vector<u32>& indices);
+
 /// Which triangles belong to closed surfaces? positions: three corners each. A connected part (corners at the same
 /// place) is closed if every edge has as many triangles on its one side as on its other and it encloses a volume with
 /// its faces outwards. Only the back of a closed surface may be left out from a picture of what light meets first:

@@ -92,7 +92,7 @@ public:
     /// Is all of the border seen from here, from its inner side? Only then does a fan cover what it encloses, once.
     bool sees(const glm::dvec3& middle, const glm::dvec3& up, std::span<const Edge> border) const
     {
-        return std::all_of(border.begin(), border.end(), [&](const Edge& edge) {
+        return !border.empty() && std::all_of(border.begin(), border.end(), [&](const Edge& edge) {
             const double length = glm::distance(positionOf(corners_, edge.from), positionOf(corners_, edge.to));
             return 2.0 * area(middle, up, edge) > double(kCornerJoin) * length;
         });

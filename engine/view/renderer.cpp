@@ -248,7 +248,8 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     r.viewRecord.flush();
     const glm::vec4 eye(glm::vec3(camera.eye), 1.0f);
     r.drawn = FacingLists(r.context, facingDraws(r.tile.chunks, params.clipFromWorld, eye));
-    r.smoothDrawn = FacingLists(r.context, facingDraws(r.smooth.chunks, params.clipFromWorld, eye));
+    r.smoothDrawn =
+        FacingLists(r.context, smooth ? facingDraws(r.smooth.chunks, params.clipFromWorld, eye) : FacingDraws{});
 
     ShadeInputs in;
     in.params = params;
@@ -296,7 +297,7 @@ Picture Renderer::render(const Camera& camera, u32 width, u32 height, const View
     picture.passes = r.recorder.times();
     if (options.mode == gpu::kModeFinal && options.smoothLight && r.smooth.tooLarge > 0)
         picture.note = concat("light is drawn by the patch: interpolated it takes ", r.smooth.tooLarge >> 20,
-                              " MiB in one buffer, and the device binds at most ", r.smoothBytes() >> 20);
+                              " MiB in one buffer, of which ", r.smoothBytes() >> 20, " MiB can be bound");
     picture.display = downloadTexels<u8>(r.context, r.images.display);
     if (options.mode >= gpu::kModeLevel)
         drawLegend(picture, r.largestValue,

@@ -163,10 +163,12 @@ struct CountParams {       // push constant
 };
 HELIO_SIZE(CountParams, 4);
 
-// Interpolated light (engine/stream/smooth_mesh.h): E_sky and E_indirect, a pair of vec4 a corner, then a patch, then a fan.
+// Interpolated light (engine/stream/smooth_mesh.h): E_sky and E_indirect, a pair of vec4 a corner, then a patch, then
+// a fan.
 // smooth_corners and smooth_patches take turns, kSmoothRounds times; then smooth_fans.
 HELIO_CONSTANT uint kSmoothRounds = 3u;
-HELIO_CONSTANT float kSmoothLimit = 1.5f;    // of a corner, in values of the least patch there: from there on middles were negative
+// Of a corner, in values of the least patch there: beyond it middles would be negative.
+HELIO_CONSTANT float kSmoothLimit = 1.5f;
 struct CornerWeightRecord {
     uint corner;
     float weight;

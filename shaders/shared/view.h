@@ -54,9 +54,9 @@ struct ViewRecord {
     vec4 glow;             // radiance added around the sun
     vec4 ground;           // radiance of the ground beyond the scene; w = height of the eye above it, m
     vec4 eye;              // m
-    vec4 shadowRight;      // m of the world, less: a texel of the sun raster to the right
-    vec4 shadowUp;         // likewise, a row on
-    vec4 shadowDown;       // m of the world: from depth 0 to 1
+    vec4 shadowRight;      // minus the way of one texel of the sun raster to the right, m
+    vec4 shadowUp;         // minus the way to the next row, m
+    vec4 shadowDown;       // the way from depth 0 to 1, m
     vec2 gridSize;         // views in x and y
     vec2 shadowStep;       // texel of the sun raster in texture coordinates
     float shadowTexel;     // m, the longer side

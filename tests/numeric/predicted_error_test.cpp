@@ -89,6 +89,20 @@ TEST(PredictedError, HalfTheDifferenceThatCoarseLinksMake)
                 1e-6 * e.total * e.total);
 }
 
+TEST(PredictedError, CoveredPatchesHaveNoErrorAndDiluteTheMean)
+{
+    // The two plates of above and a third of the same size that a neighbour covers: the mean over all is two thirds.
+    NodeTree tree = plates(3, 0.5);
+    tree.patches[2].covered = true;
+    const std::vector<glm::dvec4> direct{glm::dvec4(3.0), glm::dvec4(0.0), glm::dvec4(0.0)};
+    const PredictedError e =
+        predictError(tree, makeLinks(tree, {{0, 1, 0.4}, {1, 0, 0.4}}), makeLinks(tree, {{0, 1, 0.3}, {1, 0, 0.3}}),
+                     direct, {{0, 1, 2}, 0.1, 0.1}, 1);
+    EXPECT_EQ(e.ofPatch[2], 0.0f);
+    const double squares = double(e.ofPatch[0]) * e.ofPatch[0] + double(e.ofPatch[1]) * e.ofPatch[1];
+    EXPECT_NEAR(0.5 * squares, 1.5 * 1.5 * e.total * e.total, 1e-6 * squares);
+}
+
 TEST(PredictedError, PartsThatSendAlikeTellWhatPatchesHide)
 {
     // Two parts of one patch, one of them lit, send to a third plate, with F = 0.3 and 0.1: E = 0.15, and 0.1 from

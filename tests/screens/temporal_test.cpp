@@ -60,6 +60,7 @@ Frame frameOf(Renderer& renderer, const Camera& camera)
 /// Do a pixel and its neighbours show one plane of one colour?
 bool isInside(const Frame& frame, size_t pixel)
 {
+    if (!std::isfinite(frame.nearness[pixel])) return false; // the background
     for (const size_t step : {size_t(1), size_t(kWidth)}) {
         const double bend =
             std::abs(frame.nearness[pixel - step] - 2.0 * frame.nearness[pixel] + frame.nearness[pixel + step]);
@@ -67,7 +68,7 @@ bool isInside(const Frame& frame, size_t pixel)
         for (const size_t k : {pixel - step, pixel + step})
             if (glm::distance(frame.albedo[k], frame.albedo[pixel]) > kBend) return false;
     }
-    return frame.nearness[pixel] > 0.0;
+    return true;
 }
 
 /// Pixels of three frames in a row, apart from those where an outline or a crease passes.
@@ -100,14 +101,14 @@ Flicker flickerOf(const std::vector<Frame>& frames)
 void expectNoFlicker(const std::vector<Frame>& frames)
 {
     const Flicker f = flickerOf(frames);
+    ASSERT_GT(f.steady.size(), 100'000u);
+    ASSERT_GT(f.edges.size(), 1000u);
     double squares = 0.0;
     for (const double d : f.edges) squares += d * d;
     const double most = f.steady[size_t(0.999 * double(f.steady.size()))],
                  rms = std::sqrt(squares / double(f.edges.size()));
     std::printf("%zu steady: 99.9 %% below %.3g, worst %.3g; %zu with a shadow's edge: rms %.3g\n", f.steady.size(),
                 most, f.steady.back(), f.edges.size(), rms);
-    EXPECT_GT(f.steady.size(), 100'000u);
-    EXPECT_GT(f.edges.size(), 1000u);
     EXPECT_LT(most, kVisibleContrast);
     EXPECT_LT(f.steady.back(), kMostContrast);
     EXPECT_LT(rms, kEdgeNoise);
@@ -117,6 +118,7 @@ TEST(Temporal, AMovingSunDoesNotFlicker)
 {
     Renderer& renderer = testRenderer(TestPack::City);
     const Camera camera = parseCamera(kCamera, testPack(TestPack::City)).value();
+    renderer.setSky(120.0);
     std::vector<Frame> frames;
     for (u32 t = 0; t < kFrames; ++t) {
         renderer.setSun(115.0 + 0.02 * t, 28.0 + 0.008 * t, 800.0); // five seconds a picture
@@ -129,6 +131,7 @@ TEST(Temporal, AMovingCameraDoesNotFlicker)
 {
     Renderer& renderer = testRenderer(TestPack::City);
     renderer.setSun(115.0, 28.0, 800.0);
+    renderer.setSky(120.0);
     std::vector<Frame> frames;
     for (u32 t = 0; t < kFrames; ++t) {
         Camera camera = parseCamera(kCamera, testPack(TestPack::City)).value();

@@ -2,6 +2,7 @@
 #include "tests/support/smooth_twin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -34,7 +35,7 @@ std::vector<glm::dvec4> smoothLight(const SmoothMesh& mesh, std::span<const glm:
                 move += 0.5 * (middles[*p] - means[*p]) / double(end - begin);
                 least = glm::min(least, means[*p]);
             }
-            values[c] = glm::clamp(values[c] + move, glm::dvec4(0.0), double(gpu::kSmoothLimit) * least);
+            values[c] = glm::clamp(values[c] + move, glm::dvec4(0.0), double(gpu::kSmoothLimit) * glm::max(least, 0.0));
         }
         for (size_t p = 0; p < patchCount; ++p) {
             middles[p] = means[p];
@@ -57,6 +58,15 @@ std::vector<glm::dvec4> smoothLight(const SmoothMesh& mesh, std::span<const glm:
                 weightsOf(mesh.fanWeights, mesh.fanWeightRows, f).empty() ? means[p] : middles[p] + turn * fans[f];
     }
     return values;
+}
+
+std::vector<glm::dvec4> randomMeans(Random& random, size_t count)
+{
+    std::vector<glm::dvec4> means(count);
+    for (glm::dvec4& mean : means)
+        mean = {100 + random.uniform(), 100 * random.uniform(), std::pow(10.0, 4 * random.uniform()),
+                std::floor(2 * random.uniform())};
+    return means;
 }
 
 } // namespace helio::twin

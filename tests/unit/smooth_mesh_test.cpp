@@ -22,15 +22,6 @@ SmoothMesh refine(const WallBuilder& b)
     return buildSmoothMesh(b.vertices, b.indices, b.patches);
 }
 
-std::vector<glm::dvec4> randomMeans(Random& random, size_t count)
-{
-    std::vector<glm::dvec4> means(count);
-    for (glm::dvec4& mean : means) // from flat to steep, some dark
-        mean = {100 + random.uniform(), 100 * random.uniform(), std::pow(10.0, 4 * random.uniform()),
-                std::floor(2 * random.uniform())};
-    return means;
-}
-
 struct Triangle
 {
     std::array<glm::dvec3, 3> position;
@@ -196,7 +187,7 @@ TEST(SmoothMesh, KeepsMeansSurfaceAndContinuity)
         b.everything(random, 30);
         const SmoothMesh mesh = refine(b);
         EXPECT_GT(mesh.fanWeights.size(), 0u) << "the L";
-        const std::vector<glm::dvec4> means = randomMeans(random, b.patches.size());
+        const std::vector<glm::dvec4> means = twin::randomMeans(random, b.patches.size());
         expectMeans(mesh, means);
         expectSurface(mesh, b);
         expectUnmixed(mesh, b);
@@ -210,7 +201,7 @@ TEST(SmoothMesh, ManyPatches)
     WallBuilder b;
     b.guillotine(random, kWall, {-30, 0}, {30, 20}, 5000);
     const SmoothMesh mesh = refine(b);
-    expectMeans(mesh, randomMeans(random, b.patches.size()));
+    expectMeans(mesh, twin::randomMeans(random, b.patches.size()));
     expectSurface(mesh, b);
 }
 
@@ -330,7 +321,7 @@ TEST(SmoothMesh, SliversAndNearCorners)
         EXPECT_NEAR(sum, p == line ? 0.0 : 2.0, 1e-6) << "patch " << p;
     }
     Random random(3);
-    const std::vector<glm::dvec4> means = randomMeans(random, b.patches.size());
+    const std::vector<glm::dvec4> means = twin::randomMeans(random, b.patches.size());
     expectMeans(mesh, means);
     expectContinuity(mesh, b, means, random);
 }

@@ -84,22 +84,25 @@ struct Renderer::Impl
         return addSmoothLight(graph, smooth, sky, indirect);
     }
 
+    /// What a buffer says of the patches, which come first in it.
+    std::vector<glm::vec4> readPatches(const Buffer& from)
+    {
+        return asItems<glm::vec4>(download(context, from, 0, u64(tile.patchCount) * sizeof(glm::vec4)));
+    }
+
     /// The numbers that a mode shows in false colour, and the largest of them.
     void needValues(const ViewOptions& options)
     {
         std::vector<glm::vec4> shown;
         if (options.mode == gpu::kModeLevel) shown = patchLevels(view);
         if (options.mode == gpu::kModeLinks) shown = linksOfPatch(view, options.picked);
-        const auto read = [&](const Buffer& from) {
-            return asItems<glm::vec4>(download(context, from, 0, u64(tile.patchCount) * sizeof(glm::vec4)));
-        };
         if (options.mode == gpu::kModeError) {
-            shown = expectedErrors(view, read(solver.indirect()));
+            shown = expectedErrors(view, readPatches(solver.indirect()));
             HELIO_CHECK(shown.size() == tile.patchCount, "the pack has no expected errors");
         }
         if (options.mode == gpu::kModeResidual) {
-            shown = read(solver.radiosity());
-            const std::vector<glm::vec4> before = read(solver.radiosityBefore());
+            shown = readPatches(solver.radiosity());
+            const std::vector<glm::vec4> before = readPatches(solver.radiosityBefore());
             for (size_t i = 0; i < shown.size(); ++i) shown[i] = glm::vec4(std::abs(shown[i].a - before[i].a));
         }
         largestValue = 1e-30;
@@ -215,10 +218,9 @@ const SolveReport& Renderer::refineSun()
 
 LightTables Renderer::readTables()
 {
-    const u64 bytes = u64(impl_->tile.patchCount) * sizeof(glm::vec4);
-    const auto read = [&](const Buffer& from) { return asItems<glm::vec4>(download(impl_->context, from, 0, bytes)); };
-    const LightSolver& s = impl_->solver;
-    return {read(s.sun()), read(s.sky()), read(s.indirect()), read(s.radiosity())};
+    Impl& r = *impl_;
+    return {r.readPatches(r.solver.sun()), r.readPatches(r.solver.sky()), r.readPatches(r.solver.indirect()),
+            r.readPatches(r.solver.radiosity())};
 }
 
 std::vector<u32> Renderer::readCounts()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stage 4, option: E_sky and E_indirect in the middle of a patch's fan, such that the patch keeps its mean (see SmoothMesh).
+// Stage 4, option: light in the middle of a patch's fan, such that the patch keeps its mean (see SmoothMesh).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,8 +10,7 @@
 layout(local_size_x = kSolveGroup) in;
 HELIO_READS_UINT(rows, kSmoothRows)
 HELIO_READS_UVEC2(weights, kSmoothItems)
-HELIO_READS_VEC4(sky, kSmoothSky)
-HELIO_READS_VEC4(indirect, kSmoothIndirect)
+HELIO_READS_VEC4(means, kSmoothMeans)
 HELIO_READS_VEC4(before, kSmoothBefore)
 layout(set = 0, binding = kSmoothValues, scalar) writeonly buffer Values { vec4 values[]; };
 layout(push_constant, scalar) uniform Params { SmoothParams params; };
@@ -20,16 +19,12 @@ void main()
 {
     const uint i = globalIndex(kSolveGroup);
     if (i >= params.patchCount) return;
-    const vec4 skyMean = readVec4(sky, i), indirectMean = readVec4(indirect, i);
-    vec4 skyMiddle = skyMean, indirectMiddle = indirectMean;
+    const vec4 mean = readVec4(means, i);
+    vec4 middle = mean;
     const uint end = readUint(rows, i + 1u);
     for (uint k = readUint(rows, i); k < end; ++k) {
         const uvec2 item = readUvec2(weights, k);
-        const float weight = uintBitsToFloat(item.y);
-        skyMiddle += weight * (skyMean - readVec4(before, 2u * item.x));
-        indirectMiddle += weight * (indirectMean - readVec4(before, 2u * item.x + 1u));
+        middle += uintBitsToFloat(item.y) * (mean - readVec4(before, item.x));
     }
-    const uint out_ = 2u * (params.cornerCount + i);
-    values[out_] = max(skyMiddle, vec4(0.0));
-    values[out_ + 1u] = max(indirectMiddle, vec4(0.0));
+    values[params.cornerCount + i] = max(middle, vec4(0.0));
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr VkFormat kVectors = VK_FORMAT_R32G32B32A32_SFLOAT;
 
+const ReadVariants kSoftLight{shaders::kSoftLightComp, shaders::kSoftLightImagesComp, shaders::kSoftLightStorageComp};
 const ReadVariants kSmoothCorners{shaders::kSmoothCornersComp, shaders::kSmoothCornersImagesComp,
                                   shaders::kSmoothCornersStorageComp};
 const ReadVariants kSmoothPatches{shaders::kSmoothPatchesComp, shaders::kSmoothPatchesImagesComp,
@@ -18,10 +19,30 @@ const ReadVariants kSmoothFans{shaders::kSmoothFansComp, shaders::kSmoothFansIma
                                shaders::kSmoothFansStorageComp};
 const ReadVariants kForwardVert{shaders::kForwardVert, shaders::kForwardImagesVert, shaders::kForwardStorageVert};
 const ReadVariants kForwardFrag{shaders::kForwardFrag, shaders::kForwardImagesFrag, shaders::kForwardStorageFrag};
+const ReadVariants kDebugViewFrag{shaders::kDebugViewFrag, shaders::kDebugViewImagesFrag,
+                                  shaders::kDebugViewStorageFrag};
 
 } // namespace
 
-Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> sky, Ref<Buffer> indirect)
+Ref<Buffer> addSoftLight(FrameGraph& graph, const TileTables& tile, Ref<Buffer> sky, Ref<Buffer> indirect,
+                         const glm::vec4& skyTint, Ref<Buffer> light)
+{
+    return graph.addPass("soft light", [&](PassBuilder& pass) {
+        const auto fromSky = pass.read(sky, Use::ComputeRead);
+        const auto fromPatches = pass.read(indirect, Use::ComputeRead);
+        const auto out = pass.write(light, Use::ComputeWrite);
+        const gpu::SoftLightParams params{skyTint, tile.patchCount};
+        pass.record([=, reads = tile.reads](PassContext& ctx) {
+            ctx.dispatch(kSoftLight[reads],
+                         {texels(gpu::kSoftSky, fromSky, kVectors), texels(gpu::kSoftIndirect, fromPatches, kVectors),
+                          storage(gpu::kSoftLight, out)},
+                         params, groupsFor(params.patchCount, gpu::kSolveGroup));
+        });
+        return out;
+    });
+}
+
+Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> means)
 {
     return graph.addPass("smooth light", [&](PassBuilder& pass) {
         const auto read = [&](const Buffer& buffer) { return pass.read(pass.import(buffer), Use::ComputeRead); };
@@ -29,13 +50,12 @@ Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buff
         const auto patchRows = read(mesh.patchRows), patchWeights = read(mesh.patchWeights);
         const auto fanRows = read(mesh.fanRows), fanWeightRows = read(mesh.fanWeightRows);
         const auto fanWeights = read(mesh.fanWeights);
-        const auto fromSky = pass.read(sky, Use::ComputeRead);
-        const auto fromPatches = pass.read(indirect, Use::ComputeRead);
+        const auto from = pass.read(means, Use::ComputeRead);
         const auto out = pass.write(pass.import(mesh.values), Use::ComputeReadWrite);
         pass.record([=, reads = mesh.reads, corners = mesh.cornerCount, patches = mesh.patchCount](PassContext& ctx) {
-            const std::vector<Binding> bindings{
-                texels(gpu::kSmoothSky, fromSky, kVectors), texels(gpu::kSmoothIndirect, fromPatches, kVectors),
-                texels(gpu::kSmoothBefore, out, kVectors), storage(gpu::kSmoothValues, out)};
+            const std::vector<Binding> bindings{texels(gpu::kSmoothMeans, from, kVectors),
+                                                texels(gpu::kSmoothBefore, out, kVectors),
+                                                storage(gpu::kSmoothValues, out)};
             const auto dispatch = [&](const ReadVariants& shader, u32 count, u32 round, std::vector<Binding> own) {
                 own.insert(own.end(), bindings.begin(), bindings.end());
                 const gpu::SmoothParams params{corners, patches, round};
@@ -71,14 +91,12 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingL
             return CityMesh(pass, smoothMesh.vertices, smoothMesh.indices, tile.instances, list);
         };
         const CityMesh smoothClosed = refined(smoothLists.closed), smoothOpen = refined(smoothLists.open);
-        const auto emission = pass.read(pass.import(tile.emission), Use::FragmentRead);
-        const auto view = pass.read(in.view, Use::FragmentRead);
+        const auto view = pass.read(in.view, Use::VertexAndFragmentRead);
+        const bool lit = in.mode == gpu::kModeFinal || in.mode == gpu::kModeSunVisibility;
+        const auto shown = pass.read(lit ? pass.import(tile.emission) : in.shown, Use::FragmentRead);
         const auto shadow = pass.read(in.shadow, Use::FragmentSample);
-        const auto sun = pass.read(in.sun, Use::FragmentRead);
-        const auto sky = pass.read(in.sky, Use::FragmentRead);
-        const auto indirect = pass.read(in.indirect, Use::FragmentRead);
-        const auto radiosity = pass.read(in.radiosity, Use::FragmentRead);
         const auto valueOfVertex = pass.read(pass.import(smoothMesh.valueOfVertex), Use::VertexRead);
+        const auto light = pass.read(in.light, Use::VertexRead);
         const auto smooth = pass.read(in.smooth, Use::VertexRead);
         const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget),
                                pass.write(targets.depth, Use::DepthTarget)};
@@ -88,34 +106,32 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingL
             to.colors = {{out.radiance, VkClearColorValue{}, 0}};
             to.depth = {out.depth, 0.0f, 0};
             ctx.render(to, [&](Drawing& drawing) {
-                const auto draw = [&](const CityMesh& mesh, VkCullModeFlags cull, bool smoothed, u32 first) {
+                const auto draw = [&](const CityMesh& mesh, bool twoSided, bool smoothed, u32 first) {
                     if (first == mesh.count()) return;
                     GraphicsPipelineDesc city;
-                    city.vertex = &kForwardVert[smoothReads];
-                    city.fragment = &kForwardFrag[reads];
-                    city.cull = cull;
+                    city.vertex = &kForwardVert[smoothed ? smoothReads : reads];
+                    city.fragment = &(lit ? kForwardFrag : kDebugViewFrag)[reads];
+                    city.cull = twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
                     city.depthCompare = VK_COMPARE_OP_GREATER;
-                    city.constants = {{0, mode}, {1, smoothed}, {2, emitters}};
+                    city.constants = {{0, mode}, {1, smoothed}, {2, emitters}, {3, twoSided}};
                     CityMesh::describe(city, true);
                     drawing.pipeline(std::move(city));
-                    drawing.bind({storage(gpu::kForwardView, view),
-                                  sampled(gpu::kForwardShadow, shadow, Sampler::Nearest, {0, 0, true}),
-                                  texels(gpu::kForwardEmission, emission, kVectors),
-                                  texels(gpu::kForwardSun, sun, kVectors), texels(gpu::kForwardSky, sky, kVectors),
-                                  texels(gpu::kForwardIndirect, indirect, kVectors),
-                                  texels(gpu::kForwardRadiosity, radiosity, kVectors),
-                                  texels(gpu::kForwardValueOf, valueOfVertex, VK_FORMAT_R32_UINT),
-                                  texels(gpu::kForwardSmooth, smooth, kVectors)});
+                    std::vector<Binding> bindings{storage(gpu::kForwardView, view),
+                                                  texels(gpu::kForwardShown, shown, kVectors),
+                                                  texels(gpu::kForwardLight, smoothed ? smooth : light, kVectors),
+                                                  texels(gpu::kForwardValueOf, valueOfVertex, VK_FORMAT_R32_UINT)};
+                    if (lit) bindings.push_back(sampled(gpu::kForwardShadow, shadow, Sampler::Nearest, {0, 0, true}));
+                    drawing.bind(bindings);
                     drawing.push(params);
                     mesh.draw(ctx, drawing, first, mesh.count() - first);
                 };
                 if (interpolate) {
-                    draw(smoothOpen, VK_CULL_MODE_NONE, true, 0);
-                    draw(smoothClosed, VK_CULL_MODE_BACK_BIT, true, 0);
+                    draw(smoothOpen, true, true, 0);
+                    draw(smoothClosed, false, true, 0);
                 }
                 // The refined mesh stands for the static one.
-                draw(open, VK_CULL_MODE_NONE, false, interpolate ? open.staticCount() : 0);
-                draw(closed, VK_CULL_MODE_BACK_BIT, false, interpolate ? closed.staticCount() : 0);
+                draw(open, true, false, interpolate ? open.staticCount() : 0);
+                draw(closed, false, false, interpolate ? closed.staticCount() : 0);
 
                 // The background lies at depth 0, where nothing was drawn.
                 GraphicsPipelineDesc background;

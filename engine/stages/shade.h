@@ -10,20 +10,24 @@ namespace helio {
 inline constexpr VkFormat kRadianceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kDisplayFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
-/// E_sky and E_indirect at the corners and in the middles of the smooth mesh, W/m2: see SmoothTables::values. The mean
-/// over a patch is the patch's own value. sky: vec4 a patch; indirect: vec4 a node, patches first. A patch whose own
-/// value is negative keeps 0.
-[[nodiscard]] Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> sky,
-                                         Ref<Buffer> indirect);
+/// Soft light of every patch, W/m2: skyTint E_sky + E_indirect. sky, light: vec4 a patch; indirect: vec4 a node,
+/// patches first.
+[[nodiscard]] Ref<Buffer> addSoftLight(FrameGraph& graph, const TileTables& tile, Ref<Buffer> sky, Ref<Buffer> indirect,
+                                       const glm::vec4& skyTint, Ref<Buffer> light);
 
-/// What the forward pass reads. All W/m2; vec4 a patch (radiosity and indirect: a node, patches first).
+/// Soft light at the corners and in the middles of the smooth mesh, W/m2: see SmoothTables::values. The mean over a
+/// patch is its own value, of `means`; 0 where that is negative.
+[[nodiscard]] Ref<Buffer> addSmoothLight(FrameGraph& graph, const SmoothTables& mesh, Ref<Buffer> means);
+
+/// What the forward pass reads. All W/m2, vec4 a patch.
 struct ShadeInputs
 {
     gpu::ForwardParams params{};
-    Ref<Buffer> view;  ///< ViewRecord
-    Ref<Image> shadow; ///< depth array of the sun raster
-    Ref<Buffer> sun, sky, indirect, radiosity;
-    Ref<Buffer> smooth; ///< values of addSmoothLight; any of its kind when light is not interpolated
+    Ref<Buffer> view;   ///< ViewRecord
+    Ref<Image> shadow;  ///< depth array of the sun raster
+    Ref<Buffer> shown;  ///< what a debug view shows
+    Ref<Buffer> light;  ///< of addSoftLight
+    Ref<Buffer> smooth; ///< of addSmoothLight; any of its kind when light is not interpolated
     u32 mode = gpu::kModeFinal;
     bool interpolate = false; ///< draw the smooth mesh in place of the static one, with the light of `smooth`
     bool emitters = false;    ///< some patch emits

@@ -25,8 +25,8 @@ struct Triangle
     u32 patch;
     u32 albedo;                 // packed
     u32 firstIndex;             // of the three in the static mesh
-    bool inPlane;               // of its patch
-    std::array<u32, 3> corners; // counter-clockwise; of those in the plane alone
+    bool hasCorners;            // in the plane of its patch, which is not dark
+    std::array<u32, 3> corners; // counter-clockwise, if it has any
 };
 
 struct Edge
@@ -274,7 +274,7 @@ glm::vec3 unpackNormal(u32 packed)
 /// Triangles of the static mesh by patch and colour, without their corners. The plane of a patch goes through its first
 /// vertex that has its normal.
 std::vector<Triangle> sortedTriangles(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices,
-                                      std::span<const gpu::PatchRecord> patches)
+                                      std::span<const gpu::PatchRecord> patches, const std::vector<bool>& dark)
 {
     std::vector<const gpu::VertexRecord*> onPlane(patches.size(), nullptr);
     const auto inPlane = [&](u32 index) {
@@ -290,8 +290,9 @@ std::vector<Triangle> sortedTriangles(std::span<const gpu::VertexRecord> vertice
     for (u32 k = 0; k + 2 < indices.size(); k += 3) {
         const gpu::VertexRecord& v = vertices[indices[k]];
         HELIO_CHECK(v.patchId < patches.size(), "patch ", v.patchId, " of ", patches.size());
+        const bool lit = dark.empty() || !dark[v.patchId];
         const bool plane = inPlane(indices[k]) && inPlane(indices[k + 1]) && inPlane(indices[k + 2]);
-        triangles.push_back({v.patchId, v.albedo, k, plane, {}});
+        triangles.push_back({v.patchId, v.albedo, k, lit && plane, {}});
     }
     std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) {
         return a.patch != b.patch ? a.patch < b.patch : a.albedo < b.albedo;
@@ -314,18 +315,33 @@ void turnRows(SmoothMesh& mesh)
 
 } // namespace
 
-SmoothMesh buildSmoothMesh(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices,
-                           std::span<const gpu::PatchRecord> patches)
+std::vector<bool> darkPatches(const TileView& tile)
 {
-    std::vector<Triangle> triangles = sortedTriangles(vertices, indices, patches);
-    std::vector<u32> inPlane;
+    if (tile.linkRows.empty()) return {};
+    const auto hasLinks = [](std::span<const u32> rows, u32 row) { return rows[row] < rows[row + 1]; };
+    std::vector<bool> dark(tile.patches.size(), false);
+    for (u32 i = 0; i < tile.patches.size(); ++i) {
+        bool lit = hasLinks(tile.skyRows, i);
+        for (u32 node = i; !lit && node != gpu::kNone; node = tile.nodes[node].parent)
+            lit = hasLinks(tile.linkRows, node);
+        dark[i] = !lit;
+    }
+    return dark;
+}
+
+SmoothMesh buildSmoothMesh(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices,
+                           std::span<const gpu::PatchRecord> patches, const std::vector<bool>& dark)
+{
+    HELIO_CHECK(dark.empty() || dark.size() == patches.size(), dark.size(), " of ", patches.size(), " patches");
+    std::vector<Triangle> triangles = sortedTriangles(vertices, indices, patches, dark);
+    std::vector<u32> joined;
     for (const Triangle& t : triangles)
-        if (t.inPlane)
-            for (u32 k = 0; k < 3; ++k) inPlane.push_back(indices[t.firstIndex + k]);
-    const Corners corners(vertices, inPlane, patches);
+        if (t.hasCorners)
+            for (u32 k = 0; k < 3; ++k) joined.push_back(indices[t.firstIndex + k]);
+    const Corners corners(vertices, joined, patches);
     std::vector<Triangle> fanned;
     for (Triangle& t : triangles) {
-        if (!t.inPlane) continue;
+        if (!t.hasCorners) continue;
         for (u32 k = 0; k < 3; ++k) t.corners[k] = corners.ofVertex(indices[t.firstIndex + k]);
         if (!isThin(corners, t)) fanned.push_back(t);
     }
@@ -348,7 +364,7 @@ SmoothMesh buildSmoothMesh(std::span<const gpu::VertexRecord> vertices, std::spa
                            (fannedEnd == fanned.end() || fannedEnd->patch != first->patch);
         if (!fans.empty()) addFans(writer, vertices[indices[fans.front().firstIndex]], corners, edges, fans, alone);
         for (const Triangle& t : std::span<const Triangle>(first, end))
-            for (u32 k = 0; k < 3 && (!t.inPlane || fans.empty()); ++k)
+            for (u32 k = 0; k < 3 && (!t.hasCorners || fans.empty()); ++k)
                 flat.push_back(vertices[indices[t.firstIndex + k]]);
         writer.endColour();
         if (end == triangles.end() || end->patch != first->patch) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "city/base/types.h"
+#include "city/format/pack.h"
 #include "shaders/shared/records.h"
 #include "shaders/shared/solve.h"
 
@@ -37,9 +38,15 @@ struct SmoothMesh
     std::vector<gpu::CornerWeightRecord> fanWeights;   ///< sum 1 a fan, or none
 };
 
-/// indices: triangles of the static mesh (staticTriangles). Triangles thinner than kCornerJoin are left out: the border
-/// of their neighbours runs through their corners. A patch that has no others of its colour keeps them, with one value.
+/// indices: triangles of the static mesh (staticTriangles). dark: patches that no light can reach (darkPatches), or
+/// empty: they keep the value of the patch and their neighbours' corners do not know of them. Triangles thinner than
+/// kCornerJoin are left out: the border of their neighbours runs through their corners. A patch that has no others of
+/// its colour keeps them, with one value.
 SmoothMesh buildSmoothMesh(std::span<const gpu::VertexRecord> vertices, std::span<const u32> indices,
-                           std::span<const gpu::PatchRecord> patches);
+                           std::span<const gpu::PatchRecord> patches, const std::vector<bool>& dark);
+
+/// Patches that neither see the sky nor have a link, of their own or of an ancestor: others cover them.
+/// Empty for a tile without rows of links.
+std::vector<bool> darkPatches(const TileView& tile);
 
 } // namespace helio

@@ -12,11 +12,11 @@ namespace helio {
 
 SmoothTables uploadSmoothMesh(Context& context, const TileView& tile, Reads reads, u64 mostBytes)
 {
-    SmoothMesh mesh = buildSmoothMesh(tile.vertices, staticTriangles(tile), tile.patches);
+    SmoothMesh mesh = buildSmoothMesh(tile.vertices, staticTriangles(tile), tile.patches, darkPatches(tile));
     SmoothTables t;
     t.cornerCount = mesh.cornerCount;
     t.patchCount = u32(tile.patches.size());
-    const std::vector<glm::vec4> values(2 * (size_t(t.cornerCount) + t.patchCount + mesh.fanWeightRows.size() - 1));
+    const std::vector<glm::vec4> values(size_t(t.cornerCount) + t.patchCount + mesh.fanWeightRows.size() - 1);
     const u64 bytes = std::max({values.size() * sizeof(glm::vec4), mesh.valueOfVertex.size() * sizeof(u32),
                                 mesh.patchWeights.size() * sizeof(gpu::CornerWeightRecord),
                                 mesh.fanWeights.size() * sizeof(gpu::CornerWeightRecord)});

@@ -15,7 +15,7 @@ struct SmoothTables
     Reads reads = Reads::Storage;
     Buffer vertices, indices, valueOfVertex;
     Buffer cornerRows, cornerPatches, patchRows, patchWeights, fanRows, fanWeightRows, fanWeights;
-    Buffer values; ///< written by addSmoothLight: two vec4 a corner, then a patch, then a fan
+    Buffer values; ///< written by addSmoothLight: a vec4 a corner, then a patch, then a fan
     std::vector<DrawChunk> chunks;
     u64 tooLarge = 0; ///< bytes of the largest array, where the device cannot bind it: the rest is empty then
 };

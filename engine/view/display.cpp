@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 
 namespace helio {
@@ -28,44 +30,48 @@ glm::dvec3 tint(glm::dvec3 colour)
     return colour / luminance(glm::dvec4(colour, 0.0));
 }
 
+/// 0 at the horizon to 1 from 30 degrees on.
+double heightOfSun(const LightState& light)
+{
+    return glm::smoothstep(0.0, 0.5, std::max(light.towardsSun.z, 0.0));
+}
+
 } // namespace
 
 gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunView& sun, bool display)
 {
     gpu::ForwardParams p{};
     p.clipFromWorld = glm::mat4(clipFromWorld(camera, aspect));
-    const glm::mat4 rows = glm::transpose(sun.gridFromWorld);
-    p.sunRow0 = rows[0];
-    p.sunRow1 = rows[1];
-    p.sunRow2 = rows[2];
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(sun.gridFromWorld));
+    const glm::dvec4 eye(camera.eye, 1.0);
+    const auto seenFromEye = [&](const glm::dvec4& row) { return glm::vec4(glm::dvec3(row), glm::dot(row, eye)); };
+    p.sunRow0 = seenFromEye(double(sun.width) * rows[0]);
+    p.sunRow1 = seenFromEye(-double(sun.height) * (rows[1] + double(sun.shear) * rows[0]));
+    p.sunRow2 = seenFromEye(rows[2]);
     p.eye = glm::vec4(glm::vec3(camera.eye), display ? float(1.0 / kHazeLength) : 0.0f);
     return p;
 }
 
-gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun,
+gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightState& light, const SunView& sun,
                            bool display, const FarGround& ground)
 {
     gpu::ViewRecord v{};
-    v.worldFromClip = glm::mat4(glm::inverse(clipFromWorld(camera, aspect)));
+    v.worldFromClip = glm::mat4(glm::inverse(clipFromWorld(camera, size.x / size.y)));
+    v.rayCentre = glm::vec2(0.5 * size);
+    const double step = 2.0 * std::tan(glm::radians(camera.fovDegrees) / 2.0) / size.y;
+    v.rayStep = glm::vec2(step, -step);
     v.eye = glm::vec4(glm::vec3(camera.eye), 0.0f);
     v.sunDirection = glm::vec4(glm::vec3(light.towardsSun), light.sunUp() ? 1.0f : 0.0f);
     v.gridSize = glm::vec2(sun.gridX, sun.gridY);
     v.shadowStep = 1.0f / glm::vec2(sun.width, sun.height);
     v.shadowTexel = float(std::max(sun.texelX, sun.texelY));
     v.sunShear = sun.shear;
-    const glm::dmat3 rows = glm::transpose(glm::dmat3(sun.gridFromWorld));
-    const glm::dmat3 worldFromTexel = glm::inverse(glm::transpose(glm::dmat3(
-        double(sun.width) * rows[0], -double(sun.height) * (rows[1] + double(sun.shear) * rows[0]), rows[2])));
-    v.shadowRight = glm::vec4(-worldFromTexel[0], 0.0);
-    v.shadowUp = glm::vec4(-worldFromTexel[1], 0.0);
-    v.shadowDown = glm::vec4(worldFromTexel[2], 0.0);
     v.depthRange = float(sun.depthRange);
     v.emissionScale = light.emission ? 1.0f : 0.0f;
 
     const double sky = light.dhi / std::numbers::pi; // radiance of the uniform sky
     const double dni = light.sunUp() ? light.dni : 0.0;
     v.sunLight = glm::vec4(float(dni));
-    v.skyTint = glm::vec4(1.0f);
     v.zenith = glm::vec4(glm::vec3(float(sky)), 1.0f);
     v.horizon = glm::vec4(glm::vec3(float(sky)), 0.0f);
     const double height = std::max(light.towardsSun.z, 0.0);
@@ -73,19 +79,24 @@ gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState
     if (!display) return v;
 
     // Warm and weak near the horizon, nearly white above 30 degrees; the sky keeps what the sun lost.
-    const double high = glm::smoothstep(0.0, 0.5, std::max(light.towardsSun.z, 0.0));
+    const double high = heightOfSun(light);
     const double lit = light.sunUp() ? 1.0 : 0.0;
     v.sunLight = glm::vec4(dni * tint(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
-    v.skyTint = glm::vec4(tint(glm::mix(glm::dvec3(0.82, 0.88, 1.0), glm::dvec3(0.74, 0.87, 1.0), high)), 1.0);
     const glm::dvec3 zenith = sky * glm::mix(glm::dvec3(0.42, 0.70, 1.25), glm::dvec3(0.34, 0.80, 1.75), high);
     const glm::dvec3 horizon = sky * glm::mix(glm::dvec3(1.75, 1.42, 1.15), glm::dvec3(1.40, 1.72, 2.05), high);
     v.zenith = glm::vec4(zenith, 3.0);
     v.horizon = glm::vec4(horizon, 1.0 / kGroundHazeLength);
-    const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * glm::dvec3(v.skyTint);
+    const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * glm::dvec3(skyTint(light, true));
     const glm::dvec3 albedo = ground.rho != glm::dvec3(0.0) ? ground.rho : glm::dvec3(kGroundAlbedo);
     v.ground = glm::vec4(albedo / std::numbers::pi * onGround, std::max(camera.eye.z - ground.z, 0.1));
     v.glow = glm::vec4(lit * sky * glm::mix(glm::dvec3(2.4, 1.3, 0.6), glm::dvec3(1.2, 1.1, 0.9), high), 0.0);
     return v;
+}
+
+glm::vec4 skyTint(const LightState& light, bool display)
+{
+    if (!display) return glm::vec4(1.0f);
+    return glm::vec4(tint(glm::mix(glm::dvec3(0.82, 0.88, 1.0), glm::dvec3(0.74, 0.87, 1.0), heightOfSun(light))), 1.0);
 }
 
 double autoExposure(const glm::dvec4& meanRadiosity, const LightState& light)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/stages/sun_view.h"
@@ -19,8 +20,12 @@ struct FarGround
     double z = 0.0;      ///< m, where it lies
     glm::dvec3 rho{0.0}; ///< its reflectance; 0: the light solve knows none, and only pictures for display show one
 };
-gpu::ViewRecord viewRecord(const Camera& camera, double aspect, const LightState& light, const SunView& sun,
+/// size: of the picture, in samples.
+gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightState& light, const SunView& sun,
                            bool display, const FarGround& ground);
+
+/// The colour that a picture gives to the light of the sky, of luminance 1; white where it is not for display.
+glm::vec4 skyTint(const LightState& light, bool display);
 
 /// Display scale of a radiance, per W/m2/sr: brings the scene's mean radiance to a fixed grey. meanRadiosity: W/m2,
 /// area-weighted over the patches. Depends on the light alone, not on the camera, so pictures of one light compare.

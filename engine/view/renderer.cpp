@@ -58,7 +58,8 @@ struct Renderer::Impl
     Impl(Context& c, const TileView& t, TileTables tables, double north, const RendererOptions& options)
         : context(c), view(t), northDeg(north), tile(std::move(tables)), solver(c, tile, options),
           viewRecord(c, {"view", sizeof(gpu::ViewRecord), Memory::Upload}), recorder(c),
-          smooth(uploadSmoothMesh(c, {}, tile.reads, smoothBytes()))
+          smooth(uploadSmoothMesh(c, {}, tile.reads, smoothBytes())),
+          softLight(c, {"soft light", u64(tile.patchCount) * sizeof(glm::vec4)})
     {
         note = contractionNote(tile.contraction, solver.spectrum());
         ground.z = tile.chunks.empty() ? 0.0 : double(tile.chunks.front().box.lo.z);
@@ -77,11 +78,34 @@ struct Renderer::Impl
         return smooth.tooLarge == 0;
     }
 
-    /// Interpolated light, worked out anew when the light changed.
-    Ref<Buffer> smoothLight(FrameGraph& graph, Ref<Buffer> sky, Ref<Buffer> indirect)
+    /// Soft light for pictures, worked out anew when the light changed, or the colour of its sky.
+    void addLight(FrameGraph& graph, ShadeInputs& in, bool display)
     {
-        if (std::exchange(smoothed, solver.solveCount()) == solver.solveCount()) return graph.import(smooth.values);
-        return addSmoothLight(graph, smooth, sky, indirect);
+        in.light = graph.import(softLight);
+        in.smooth = graph.import(smooth.values);
+        const SoftLightOf now{solver.solveCount(), display};
+        if (std::exchange(softLightOf, now) != now) {
+            in.light = addSoftLight(graph, tile, graph.import(solver.sky()), graph.import(solver.indirect()),
+                                    skyTint(light, display), in.light);
+            smoothLightOf.reset();
+        }
+        if (in.interpolate && std::exchange(smoothLightOf, now) != now)
+            in.smooth = addSmoothLight(graph, smooth, in.light);
+    }
+
+    /// What a debug view shows of the patches.
+    const Buffer& shown(u32 mode)
+    {
+        switch (mode) {
+        case gpu::kModeSun:
+            return solver.sun();
+        case gpu::kModeSky:
+            return solver.sky();
+        case gpu::kModeIndirect:
+            return solver.indirect();
+        default:
+            return mode >= gpu::kModeLevel ? values : solver.radiosity();
+        }
     }
 
     /// What a buffer says of the patches, which come first in it.
@@ -131,7 +155,14 @@ struct Renderer::Impl
     Buffer viewRecord;
     Recorder recorder;
     SmoothTables smooth; // empty until it is needed
-    u64 smoothed = 0;    // solveCount of its values
+    Buffer softLight;    // vec4 a patch
+    struct SoftLightOf
+    {
+        u64 solveCount;
+        bool display;
+        bool operator==(const SoftLightOf&) const = default;
+    };
+    std::optional<SoftLightOf> softLightOf, smoothLightOf; // of what the buffers hold
     FrameImages images;
     FacingLists drawn, smoothDrawn;
     Buffer values;
@@ -242,10 +273,10 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const bool numbers = options.mode >= gpu::kModeLevel;
     if (numbers) r.needValues(options);
 
+    const glm::uvec2 size(width * samples, height * samples);
     const gpu::ForwardParams params =
         forwardParams(camera, double(width) / height, r.solver.sunView(), options.display);
-    const gpu::ViewRecord record =
-        viewRecord(camera, double(width) / height, r.light, r.solver.sunView(), options.display, r.ground);
+    const gpu::ViewRecord record = viewRecord(camera, size, r.light, r.solver.sunView(), options.display, r.ground);
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
     const glm::vec4 eye(glm::vec3(camera.eye), 1.0f);
@@ -257,13 +288,10 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.params = params;
     in.view = graph.import(r.viewRecord);
     in.shadow = graph.import(r.solver.shadow());
-    in.sun = graph.import(r.solver.sun());
-    in.sky = graph.import(r.solver.sky());
-    in.indirect = graph.import(r.solver.indirect());
-    in.radiosity = graph.import(numbers ? r.values : r.solver.radiosity());
-    in.smooth = smooth ? r.smoothLight(graph, in.sky, in.indirect) : graph.import(r.smooth.values);
+    in.shown = graph.import(r.shown(options.mode));
     in.mode = options.mode;
     in.interpolate = smooth;
+    r.addLight(graph, in, options.display);
     in.emitters = r.tile.emits && r.light.emission;
     const ShadeTargets targets = addForward(graph, r.tile, r.drawn, r.smooth, r.smoothDrawn, in,
                                             {graph.import(r.images.radiance), graph.import(r.images.depth)});

@@ -163,8 +163,17 @@ struct CountParams {       // push constant
 };
 HELIO_SIZE(CountParams, 4);
 
-// Interpolated light (engine/stream/smooth_mesh.h): E_sky and E_indirect, a pair of vec4 a corner, then a patch, then
-// a fan.
+// soft_light: skyTint E_sky + E_indirect of every patch
+HELIO_CONSTANT uint kSoftSky = 0u;
+HELIO_CONSTANT uint kSoftIndirect = 1u;
+HELIO_CONSTANT uint kSoftLight = 2u;         // written
+struct SoftLightParams {   // push constant
+    vec4 skyTint;
+    uint patchCount;
+};
+HELIO_SIZE(SoftLightParams, 20);
+
+// Interpolated light (engine/stream/smooth_mesh.h): a vec4 a corner, then a patch, then a fan.
 // smooth_corners and smooth_patches take turns, kSmoothRounds times; then smooth_fans.
 HELIO_CONSTANT uint kSmoothRounds = 3u;
 // Of a corner, in values of the least patch there: beyond it middles would be negative.
@@ -176,11 +185,10 @@ struct CornerWeightRecord {
 HELIO_SIZE(CornerWeightRecord, 8);
 HELIO_CONSTANT uint kSmoothRows = 0u;        // offsets into the items
 HELIO_CONSTANT uint kSmoothItems = 1u;       // a corner's patches; CornerWeightRecords of a patch or a fan
-HELIO_CONSTANT uint kSmoothSky = 2u;
-HELIO_CONSTANT uint kSmoothIndirect = 3u;
-HELIO_CONSTANT uint kSmoothBefore = 4u;      // the values, read: those of the other shaders
-HELIO_CONSTANT uint kSmoothValues = 5u;      // the same array, written
-HELIO_CONSTANT uint kSmoothFans = 6u;        // patches + 1 offsets into the rows
+HELIO_CONSTANT uint kSmoothMeans = 2u;       // soft light of the patches
+HELIO_CONSTANT uint kSmoothBefore = 3u;      // the values, read: those of the other shaders
+HELIO_CONSTANT uint kSmoothValues = 4u;      // the same array, written
+HELIO_CONSTANT uint kSmoothFans = 5u;        // patches + 1 offsets into the rows
 struct SmoothParams {      // push constant
     uint cornerCount;
     uint patchCount;

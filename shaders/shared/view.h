@@ -23,20 +23,16 @@ HELIO_CONSTANT uint kModeResidual = 11u;   // what the last sweep changed of B, 
 HELIO_CONSTANT uint kModeError = 12u;      // expected error of E_indirect, W/m2
 
 HELIO_CONSTANT uint kForwardView = 0u;     // ViewRecord
-HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array
-HELIO_CONSTANT uint kForwardEmission = 2u;
-HELIO_CONSTANT uint kForwardSun = 3u;
-HELIO_CONSTANT uint kForwardSky = 4u;
-HELIO_CONSTANT uint kForwardIndirect = 5u;
-HELIO_CONSTANT uint kForwardRadiosity = 6u;
-HELIO_CONSTANT uint kForwardValueOf = 7u;  // which of the values a vertex of the smooth mesh takes
-HELIO_CONSTANT uint kForwardSmooth = 8u;   // values of smooth_corners, _patches and _fans
+HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array of the sun raster; not in debug views
+HELIO_CONSTANT uint kForwardShown = 2u;    // vec4 a patch: what a debug view shows; emission in others
+HELIO_CONSTANT uint kForwardLight = 3u;    // soft light: of the patches, or the values of smooth_fans and its kin
+HELIO_CONSTANT uint kForwardValueOf = 4u;  // which of these values a vertex of the smooth mesh takes
 
 // Push constant of the city's passes: what every vertex and every pixel needs. Software devices read a word of a storage
 // buffer lane by lane, a push constant once.
 struct ForwardParams {
     mat4 clipFromWorld;    // reversed depth: 1 at the near plane, 0 at infinity
-    vec4 sunRow0;          // rows of gridFromWorld, see SunView: x, y in views, z = depth 0..1
+    vec4 sunRow0;          // place in the sun's picture: texels to the right, texels down, depth; w: of the eye
     vec4 sunRow1;
     vec4 sunRow2;
     vec4 eye;              // m; w = 1 / length of the haze, 1/m
@@ -48,15 +44,13 @@ struct ViewRecord {
     mat4 worldFromClip;
     vec4 sunDirection;     // unit, towards the sun; w = 1 when the sun is up
     vec4 sunLight;         // W/m2: DNI x display tint
-    vec4 skyTint;          // display only; 1 for linear output
     vec4 zenith;           // radiance of the picture's sky, W/m2/sr; w = power of the gradient; display only
     vec4 horizon;          // w = 1 / length of the haze over the ground beyond the scene, 1/m
     vec4 glow;             // radiance added around the sun
     vec4 ground;           // radiance of the ground beyond the scene; w = height of the eye above it, m
     vec4 eye;              // m
-    vec4 shadowRight;      // minus the way of one texel of the sun raster to the right, m
-    vec4 shadowUp;         // minus the way to the next row, m
-    vec4 shadowDown;       // the way from depth 0 to 1, m
+    vec2 rayCentre;        // middle of the picture, in its texels
+    vec2 rayStep;          // m, to the right and up, that a sample's distance to the right and down makes 1 m before the eye
     vec2 gridSize;         // views in x and y
     vec2 shadowStep;       // texel of the sun raster in texture coordinates
     float shadowTexel;     // m, the longer side
@@ -64,7 +58,7 @@ struct ViewRecord {
     float depthRange;      // m of light space from depth 0 to 1
     float emissionScale;
 };
-HELIO_SIZE(ViewRecord, 272);
+HELIO_SIZE(ViewRecord, 224);
 
 // tone: samples x samples texels a pixel, tone mapped each, averaged, sRGB
 HELIO_CONSTANT uint kToneGroup = 8u;

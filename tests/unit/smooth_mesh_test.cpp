@@ -17,9 +17,9 @@ namespace helio {
 
 namespace {
 
-SmoothMesh refine(const WallBuilder& b)
+SmoothMesh refine(const WallBuilder& b, const std::vector<bool>& dark = {})
 {
-    return buildSmoothMesh(b.vertices, b.indices, b.patches);
+    return buildSmoothMesh(b.vertices, b.indices, b.patches, dark);
 }
 
 struct Triangle
@@ -299,6 +299,38 @@ TEST(SmoothMesh, WhatIsNotInThePlaneTakesTheMean)
     }
     EXPECT_EQ(flat, 2u);
     expectMeans(mesh, {glm::dvec4(1), glm::dvec4(2)});
+}
+
+TEST(SmoothMesh, WhatNoLightReachesLeavesItsNeighboursAlone)
+{
+    // A wall of which another building covers the lower part: no dark rim along it, no peaks above.
+    WallBuilder b;
+    for (int x = 0; x < 3; ++x) b.rectangle(b.patch(kWall), {x, 0}, {x + 1, 1});
+    b.rectangle(b.patch(kWall), {0, -1}, {3, 0});
+    const std::vector<glm::dvec4> means{glm::dvec4(10), glm::dvec4(10), glm::dvec4(10), glm::dvec4(0)};
+    const SmoothMesh mesh = refine(b, {false, false, false, true});
+    const std::vector<glm::dvec4> values = twin::smoothLight(mesh, means);
+    for (const Triangle& t : trianglesOf(mesh))
+        for (const u32 value : t.value) EXPECT_NEAR(values[value].r, means[t.patch].r, 1e-9) << "patch " << t.patch;
+    expectMeans(mesh, means);
+    expectSurface(mesh, b);
+}
+
+TEST(SmoothMesh, DarkIsWhatHasNoLinksAtAnyLevel)
+{
+    // Patch 0 sees the sky, 1 has a link, 2 has its light from node 5, two levels up, 3 none.
+    const std::vector<gpu::PatchRecord> patches(4);
+    std::vector<gpu::NodeRecord> nodes(6, {gpu::kNone, 0, 0, 1.0f});
+    nodes[2].parent = 4;
+    nodes[4].parent = 5;
+    const std::vector<u32> skyRows{0, 1, 1, 1, 1}, linkRows{0, 0, 2, 2, 2, 2, 3};
+    TileView tile;
+    tile.patches = patches;
+    tile.nodes = nodes;
+    tile.skyRows = skyRows;
+    tile.linkRows = linkRows;
+    EXPECT_EQ(darkPatches(tile), (std::vector<bool>{false, false, false, true}));
+    EXPECT_TRUE(darkPatches({}).empty());
 }
 
 TEST(SmoothMesh, SliversAndNearCorners)

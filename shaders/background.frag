@@ -15,7 +15,7 @@ void main()
 {
     if (kMode == kModeFinal) {
         const vec4 point = view.worldFromClip * vec4(vClip, 0.5, 1.0);
-        oRadiance = vec4(skyRadiance(normalize(point.xyz / point.w - view.eye.xyz)), 0.0);
+        oRadiance = vec4(backgroundRadiance(normalize(point.xyz / point.w - view.eye.xyz)), 0.0);
     } else {
         oRadiance = vec4(0.0, 0.0, 0.0, kMode == kModeId || kMode == kModeDepth || kMode >= kModeLevel ? -1.0 : 0.0);
     }

@@ -8,7 +8,9 @@
 #include "shaders/lib/fetch.glsl"
 #include "shaders/lib/mesh.glsl"
 #include "shaders/lib/view.glsl"
+#include "shaders/lib/sky.glsl"
 
+layout(constant_id = 0) const uint kMode = kModeFinal;
 layout(constant_id = 1) const bool kInterpolate = false; // of the smooth mesh alone
 layout(constant_id = 3) const bool kTwoSided = true;     // open surfaces: the normal follows the side that is seen
 layout(push_constant, scalar) uniform Params { ForwardParams params; };
@@ -21,6 +23,20 @@ layout(location = 1) out vec3 vLight; // one value a patch, or interpolated
 layout(location = 2) flat out vec3 vAlbedo;
 layout(location = 3) flat out uint vPatch;
 
+const float kPi = 3.14159265358979;
+
+// What a pane of glass reflects: Fresnel at its two faces (Schlick, An inexpensive BRDF model, 1994; n = 1.5), without
+// interference 2 R / (1 + R). Near the horizon a city stands before the sky: it shines with its own soft light.
+// toEye, normal: unit; light: soft light there, W/m2. Radiance, W/m2/sr.
+vec3 reflectedByPane(vec3 toEye, vec3 normal, vec3 light)
+{
+    const float cosine = clamp(dot(normal, toEye), 0.0, 1.0);
+    const float face = 0.04 + 0.96 * pow(1.0 - cosine, 5.0);
+    const vec3 direction = reflect(-toEye, normal);
+    const vec3 city = 0.3 / kPi * light;
+    return 2.0 * face / (1.0 + face) * mix(city, domeRadiance(direction), smoothstep(0.0, 0.5, direction.z));
+}
+
 void main()
 {
     const vec3 position = worldPosition(), fromEye = position - params.eye.xyz;
@@ -30,6 +46,11 @@ void main()
                 dot(normal, view.sunDirection.xyz));
     vPatch = patchOfVertex();
     vLight = readVec4(light, kInterpolate ? readUint(valueOf, gl_VertexIndex) : vPatch).rgb;
-    vAlbedo = unpackUnorm4x8(aAlbedo).rgb;
+    const vec4 albedo = unpackUnorm4x8(aAlbedo);
+    vAlbedo = albedo.rgb;
+    // As light that makes the pane as bright as the reflection does. A loop, since software devices walk through a branch.
+    const int panes = kMode == kModeFinal && view.glow.w > 0.0 && albedo.a == 0.0 ? 1 : 0;
+    for (int k = 0; k < panes; ++k)
+        vLight += kPi * reflectedByPane(normalize(-fromEye), normal, vLight) / max(albedo.rgb, vec3(0.01));
     gl_Position = params.clipFromWorld * vec4(position, 1.0);
 }

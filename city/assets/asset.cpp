@@ -127,6 +127,7 @@ private:
 
         const size_t firstVertex = mesh_.positions.size(), firstIndex = mesh_.indices.size();
         const auto [albedo, rho] = materialOf(primitive.material);
+        const bool glass = isGlass(primitive.material);
         const glm::dmat3 normalTurn = glm::transpose(glm::inverse(glm::dmat3(transform)));
         for (size_t k = 0; k < positions.count; ++k) {
             glm::vec3 p, n(0.0f);
@@ -139,6 +140,7 @@ private:
             mesh_.positions.push_back(placed);
             mesh_.normals.push_back(glm::vec3(normalTurn * glm::dvec3(n)));
             mesh_.albedos.push_back(albedo);
+            mesh_.isGlass.push_back(glass);
         }
         if (!addIndices(primitive.indices, positions.count, firstVertex)) return false;
         if (glm::determinant(glm::dmat3(transform)) < 0.0) // a mirrored node turns its triangles inside out
@@ -216,6 +218,12 @@ private:
         }
         for (int k = 0; k < 3; ++k) color[k] = color[k] > 0.0 ? std::min(color[k], 1.0) : 0.0;
         return {glm::vec3(color), known.value_or(glm::dvec4(color, solarFromRgb(color)))};
+    }
+
+    bool isGlass(int material) const
+    {
+        return material >= 0 && size_t(material) < model_.materials.size() &&
+               model_.materials[size_t(material)].name == "glass";
     }
 
     bool elements(int index, int type, int componentType, Elements& result)

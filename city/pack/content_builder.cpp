@@ -242,7 +242,8 @@ private:
                          std::span(build_.trimPlanes).subspan(instance.trimBegin, instance.trimCount));
             const u32 base = u32(c_.vertices.size());
             for (const TrimmedVertex& v : mesh.vertices) {
-                c_.vertices.push_back({v.position, instance.patch, packNormal(v.normal), packAlbedo(v.albedo)});
+                c_.vertices.push_back(
+                    {v.position, instance.patch, packNormal(v.normal), packAlbedo(v.albedo, v.glass)});
                 include(c_.vertices.back().position);
             }
             for (const u32 index : mesh.indices) c_.indices.push_back(base + index);
@@ -290,7 +291,8 @@ private:
         c_.draws.push_back(
             {u32(mesh.indices.size()), instanceCount, u32(c_.indices.size()), u32(c_.vertices.size()), firstInstance});
         for (size_t v = 0; v < mesh.positions.size(); ++v)
-            c_.vertices.push_back({mesh.positions[v], 0, packNormal(mesh.normals[v]), packAlbedo(mesh.albedos[v])});
+            c_.vertices.push_back(
+                {mesh.positions[v], 0, packNormal(mesh.normals[v]), packAlbedo(mesh.albedos[v], mesh.isGlass[v])});
         c_.indices.insert(c_.indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
 

@@ -21,7 +21,7 @@ TrimmedVertex between(const TrimmedVertex& a, const TrimmedVertex& b, double sha
     const glm::dvec3 normal = glm::mix(a.normal, b.normal, share);
     const double length = glm::length(normal);
     return {glm::mix(a.position, b.position, share), length > 0.0 ? normal / length : a.normal,
-            glm::mix(a.albedo, b.albedo, share)};
+            glm::mix(a.albedo, b.albedo, share), a.glass};
 }
 
 std::vector<TrimmedVertex> clip(const std::vector<TrimmedVertex>& corners, const glm::dvec4& plane)
@@ -48,7 +48,7 @@ TrimmedMesh trimMesh(const AssetMesh& mesh, const glm::dmat4x3& worldFromAsset, 
         const glm::dvec3 normal = handed * (forNormals * glm::dvec3(mesh.normals[i]));
         const double length = glm::length(normal);
         return TrimmedVertex{worldFromAsset * glm::dvec4(mesh.positions[i], 1.0),
-                             length > 0.0 ? normal / length : glm::dvec3(0, 0, 1), mesh.albedos[i]};
+                             length > 0.0 ? normal / length : glm::dvec3(0, 0, 1), mesh.albedos[i], mesh.isGlass[i]};
     };
     TrimmedMesh out;
     for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {

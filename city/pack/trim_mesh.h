@@ -14,6 +14,7 @@ struct TrimmedVertex
     glm::dvec3 position{0.0}; ///< m
     glm::dvec3 normal{0.0};   ///< unit
     glm::dvec3 albedo{0.0};   ///< linear
+    bool glass = false;
 };
 
 struct TrimmedMesh

@@ -16,24 +16,13 @@ namespace {
 constexpr double kHazeLength = 12000.0;      // m over which 63 % of a view turns to haze
 constexpr double kGroundHazeLength = 3500.0; // the same for the plain beyond the scene: it shall not end in a line
 constexpr double kGroundAlbedo = 0.16;       // of that plain where the scene has none
+const glm::dvec3 kGroundTint = tintOf({0.86, 1.0, 0.56}); // fields, for display alone
 constexpr double kMiddleGrey = 0.50; // of the exposed mean; the curve brings it to a display value above one half
 constexpr double kSunWeight = 0.04;  // of a white surface in the sun, so that it does not burn out in a dark scene
 
 double luminance(const glm::dvec4& v)
 {
     return 0.2126 * v.r + 0.7152 * v.g + 0.0722 * v.b;
-}
-
-/// Scales a colour to luminance 1, so that a tint changes no brightness.
-glm::dvec3 tint(glm::dvec3 colour)
-{
-    return colour / luminance(glm::dvec4(colour, 0.0));
-}
-
-/// 0 at the horizon to 1 from 30 degrees on.
-double heightOfSun(const LightState& light)
-{
-    return glm::smoothstep(0.0, 0.5, std::max(light.towardsSun.z, 0.0));
 }
 
 } // namespace
@@ -53,7 +42,7 @@ gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunV
 }
 
 gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightState& light, const SunView& sun,
-                           bool display, const FarGround& ground)
+                           const FarGround& ground, const std::optional<PictureSky>& sky)
 {
     gpu::ViewRecord v{};
     v.worldFromClip = glm::mat4(glm::inverse(clipFromWorld(camera, size.x / size.y)));
@@ -69,34 +58,26 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
     v.depthRange = float(sun.depthRange);
     v.emissionScale = light.emission ? 1.0f : 0.0f;
 
-    const double sky = light.dhi / std::numbers::pi; // radiance of the uniform sky
+    const float uniform = float(light.dhi / std::numbers::pi);
     const double dni = light.sunUp() ? light.dni : 0.0;
     v.sunLight = glm::vec4(float(dni));
-    v.zenith = glm::vec4(glm::vec3(float(sky)), 1.0f);
-    v.horizon = glm::vec4(glm::vec3(float(sky)), 0.0f);
+    v.zenith = glm::vec4(glm::vec3(uniform), 1.0f);
+    v.horizon = glm::vec4(glm::vec3(uniform), 0.0f);
     const double height = std::max(light.towardsSun.z, 0.0);
     v.ground = glm::vec4(ground.rho / std::numbers::pi * (dni * height + light.dhi), 0.0);
-    if (!display) return v;
+    if (!sky) return v;
 
-    // Warm and weak near the horizon, nearly white above 30 degrees; the sky keeps what the sun lost.
-    const double high = heightOfSun(light);
-    const double lit = light.sunUp() ? 1.0 : 0.0;
-    v.sunLight = glm::vec4(dni * tint(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
-    const glm::dvec3 zenith = sky * glm::mix(glm::dvec3(0.42, 0.70, 1.25), glm::dvec3(0.34, 0.80, 1.75), high);
-    const glm::dvec3 horizon = sky * glm::mix(glm::dvec3(1.75, 1.42, 1.15), glm::dvec3(1.40, 1.72, 2.05), high);
-    v.zenith = glm::vec4(zenith, 3.0);
-    v.horizon = glm::vec4(horizon, 1.0 / kGroundHazeLength);
-    const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * glm::dvec3(skyTint(light, true));
-    const glm::dvec3 albedo = ground.rho != glm::dvec3(0.0) ? ground.rho : glm::dvec3(kGroundAlbedo);
+    // The sun is warm near the horizon and nearly white above 30 degrees; the sky keeps what it lost.
+    const double high = glm::smoothstep(0.0, 0.5, height);
+    v.sunLight = glm::vec4(dni * tintOf(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
+    v.zenith = glm::vec4(sky->zenith, kSkyPower);
+    v.horizon = glm::vec4(sky->horizon, 1.0 / kGroundHazeLength);
+    v.glow = glm::vec4(sky->glow, 1.0);
+    const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * sky->tint;
+    const double known = luminance(glm::dvec4(ground.rho, 0.0));
+    const glm::dvec3 albedo = (known > 0.0 ? known : kGroundAlbedo) * kGroundTint;
     v.ground = glm::vec4(albedo / std::numbers::pi * onGround, std::max(camera.eye.z - ground.z, 0.1));
-    v.glow = glm::vec4(lit * sky * glm::mix(glm::dvec3(2.4, 1.3, 0.6), glm::dvec3(1.2, 1.1, 0.9), high), 0.0);
     return v;
-}
-
-glm::vec4 skyTint(const LightState& light, bool display)
-{
-    if (!display) return glm::vec4(1.0f);
-    return glm::vec4(tint(glm::mix(glm::dvec3(0.82, 0.88, 1.0), glm::dvec3(0.74, 0.87, 1.0), heightOfSun(light))), 1.0);
 }
 
 double autoExposure(const glm::dvec4& meanRadiosity, const LightState& light)

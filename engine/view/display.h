@@ -2,10 +2,12 @@
 #pragma once
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 
 #include "engine/stages/sun_view.h"
 #include "engine/view/camera.h"
 #include "engine/view/light_state.h"
+#include "engine/view/picture_sky.h"
 #include "shaders/shared/view.h"
 
 namespace helio {
@@ -20,12 +22,9 @@ struct FarGround
     double z = 0.0;      ///< m, where it lies
     glm::dvec3 rho{0.0}; ///< its reflectance; 0: the light solve knows none, and only pictures for display show one
 };
-/// size: of the picture, in samples.
+/// size: of the picture, in samples. sky: of a picture for display.
 gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightState& light, const SunView& sun,
-                           bool display, const FarGround& ground);
-
-/// The colour that a picture gives to the light of the sky, of luminance 1; white where it is not for display.
-glm::vec4 skyTint(const LightState& light, bool display);
+                           const FarGround& ground, const std::optional<PictureSky>& sky);
 
 /// Display scale of a radiance, per W/m2/sr: brings the scene's mean radiance to a fixed grey. meanRadiosity: W/m2,
 /// area-weighted over the patches. Depends on the light alone, not on the camera, so pictures of one light compare.

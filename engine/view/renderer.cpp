@@ -79,14 +79,14 @@ struct Renderer::Impl
     }
 
     /// Soft light for pictures, worked out anew when the light changed, or the colour of its sky.
-    void addLight(FrameGraph& graph, ShadeInputs& in, bool display)
+    void addLight(FrameGraph& graph, ShadeInputs& in, const std::optional<PictureSky>& sky)
     {
         in.light = graph.import(softLight);
         in.smooth = graph.import(smooth.values);
-        const SoftLightOf now{solver.solveCount(), display};
+        const SoftLightOf now{solver.solveCount(), sky.has_value()};
         if (std::exchange(softLightOf, now) != now) {
             in.light = addSoftLight(graph, tile, graph.import(solver.sky()), graph.import(solver.indirect()),
-                                    skyTint(light, display), in.light);
+                                    glm::vec4(sky ? sky->tint : glm::dvec3(1.0), 1.0), in.light);
             smoothLightOf.reset();
         }
         if (in.interpolate && std::exchange(smoothLightOf, now) != now)
@@ -276,7 +276,9 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const glm::uvec2 size(width * samples, height * samples);
     const gpu::ForwardParams params =
         forwardParams(camera, double(width) / height, r.solver.sunView(), options.display);
-    const gpu::ViewRecord record = viewRecord(camera, size, r.light, r.solver.sunView(), options.display, r.ground);
+    std::optional<PictureSky> sky;
+    if (options.display) sky = pictureSky(r.tile.skyPatches, r.light);
+    const gpu::ViewRecord record = viewRecord(camera, size, r.light, r.solver.sunView(), r.ground, sky);
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
     const glm::vec4 eye(glm::vec3(camera.eye), 1.0f);
@@ -291,7 +293,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.shown = graph.import(r.shown(options.mode));
     in.mode = options.mode;
     in.interpolate = smooth;
-    r.addLight(graph, in, options.display);
+    r.addLight(graph, in, sky);
     in.emitters = r.tile.emits && r.light.emission;
     const ShadeTargets targets = addForward(graph, r.tile, r.drawn, r.smooth, r.smoothDrawn, in,
                                             {graph.import(r.images.radiance), graph.import(r.images.depth)});

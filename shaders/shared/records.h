@@ -60,7 +60,7 @@ struct VertexRecord {
     vec3 position;   // m, tile frame; asset units for asset meshes
     uint patchId;    // 0 for asset meshes
     uint normal;     // unit vector, three signed 10-bit components (A2B10G10R10_SNORM)
-    uint albedo;     // linear r, g, b, and 255 = opaque, 8 bits each (R8G8B8A8_UNORM)
+    uint albedo;     // linear r, g, b, and 255 or, for a pane of glass, 0: 8 bits each (R8G8B8A8_UNORM)
 };
 HELIO_SIZE(VertexRecord, 24);
 

@@ -78,6 +78,7 @@ TEST(Assets, ShippedPartsLoad)
         ++count;
         ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
         ASSERT_EQ(mesh.albedos.size(), mesh.positions.size());
+        ASSERT_EQ(mesh.isGlass.size(), mesh.positions.size());
         for (size_t t = 0; t < mesh.indices.size(); t += 3) { // closed boxes: normals agree with the winding
             const u32* v = &mesh.indices[t];
             const glm::vec3 n =
@@ -105,6 +106,9 @@ TEST(Assets, ReflectanceGoesByWhatTheFrontShows)
         triangle(R"("count":3)", "", R"("name":"mystery","pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1]})"));
     EXPECT_NEAR(unknown->rho.a, 0.2126 + 0.7152 * 0.5, 1e-12);
     EXPECT_NEAR(unknown->albedos[0].g, 0.5, 1e-6);
+    EXPECT_FALSE(unknown->isGlass[0]);
+    EXPECT_TRUE(parse(triangle())->isGlass[0]) << "by name, too";
+    EXPECT_EQ(std::count(panel.isGlass.begin(), panel.isGlass.end(), true), 24) << "one pane, a box";
 }
 
 TEST(Assets, NodesArePlaced)

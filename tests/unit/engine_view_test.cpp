@@ -171,15 +171,14 @@ TEST(Display, LinearOutputHasNoTint)
 {
     LightState light;
     light.towardsSun = sunDirection(150, 40, 0);
-    const gpu::ViewRecord v = viewRecord({}, {1.5, 1.0}, light, {}, false, {});
+    const gpu::ViewRecord v = viewRecord({}, {1.5, 1.0}, light, {}, {}, {});
     EXPECT_EQ(v.sunLight, glm::vec4(800.0f));
-    EXPECT_EQ(skyTint(light, false), glm::vec4(1.0f));
     EXPECT_NEAR(double(v.zenith.r), 120.0 / 3.14159265, 1e-4);
     EXPECT_EQ(glm::vec3(v.horizon), glm::vec3(v.zenith));
     EXPECT_EQ(glm::vec3(v.ground), glm::vec3(0.0f));
     EXPECT_EQ(forwardParams({}, 1.5, {}, false).eye.w, 0.0f);
     // A ground beyond the scene is as bright as the light solve has it: rho / pi (DNI sin(elevation) + DHI).
-    const gpu::ViewRecord g = viewRecord({}, {1.5, 1.0}, light, {}, false, {-1.0, {0.1, 0.2, 0.3}});
+    const gpu::ViewRecord g = viewRecord({}, {1.5, 1.0}, light, {}, {-1.0, {0.1, 0.2, 0.3}}, {});
     EXPECT_NEAR(double(g.ground.g), 0.2 / 3.14159265 * (800.0 * std::sin(glm::radians(40.0)) + 120.0), 1e-4);
     EXPECT_EQ(g.horizon.w * g.ground.w, 0.0f) << "no haze over it";
 }
@@ -272,15 +271,98 @@ TEST(OutsideRadiance, TheGroundBeyondIsLitBySunAndSky)
     near(radiance[2].mean.y, 0.2 / kPi * 120.0);
 }
 
-TEST(Display, TintsKeepTheBrightness)
+double luminanceOf(const glm::dvec3& c)
+{
+    return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+/// The irradiance of the picture's sky on an open horizontal plane, by midpoints of height and azimuth.
+double irradianceOf(const PictureSky& sky, const glm::dvec3& towardsSun)
+{
+    double sum = 0.0;
+    constexpr int kSteps = 300;
+    for (int i = 0; i < kSteps; ++i)
+        for (int k = 0; k < kSteps; ++k) {
+            const double z = (i + 0.5) / kSteps, turn = 2.0 * 3.14159265358979 * (k + 0.5) / kSteps;
+            const double level = std::sqrt(1.0 - z * z), h = std::pow(1.0 - z, kSkyPower);
+            const double c =
+                std::max(glm::dot(glm::dvec3(level * std::cos(turn), level * std::sin(turn), z), towardsSun), 0.0);
+            sum += z * luminanceOf(sky.zenith * (1.0 - h) + sky.horizon * h +
+                                   sky.glow * (0.25 * std::pow(c, 8.0) + 0.5 * std::pow(c, 64.0)));
+        }
+    return sum * 2.0 * 3.14159265358979 / (kSteps * kSteps);
+}
+
+TEST(PictureSky, TintsKeepTheBrightness)
 {
     LightState light;
     light.towardsSun = sunDirection(150, 10, 0);
-    const gpu::ViewRecord v = viewRecord({}, {1.5, 1.0}, light, {}, true, {});
-    const auto luminance = [](glm::vec4 c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; };
-    EXPECT_NEAR(luminance(v.sunLight), 800.0, 0.01);
-    EXPECT_NEAR(luminance(skyTint(light, true)), 1.0, 1e-5);
+    const PictureSky sky = pictureSky({}, light);
+    const gpu::ViewRecord v = viewRecord({}, {1.5, 1.0}, light, {}, {}, sky);
+    EXPECT_NEAR(luminanceOf(glm::dvec3(v.sunLight)), 800.0, 0.01);
+    EXPECT_NEAR(luminanceOf(sky.tint), 1.0, 1e-12);
     EXPECT_GT(v.sunLight.r, v.sunLight.b);
+    EXPECT_GT(sky.tint.b, sky.tint.r);
+    EXPECT_NEAR(irradianceOf(sky, light.towardsSun), light.dhi, 0.2);
+}
+
+TEST(PictureSky, IsGreyWithoutTheSun)
+{
+    LightState light;
+    light.towardsSun = sunDirection(150, 40, 0);
+    light.dni = 0.0;
+    const PictureSky sky = pictureSky({}, light);
+    EXPECT_LT(sky.tint.b / sky.tint.r, 1.15);
+    EXPECT_EQ(luminanceOf(sky.glow), 0.0);
+    EXPECT_NEAR(irradianceOf(sky, light.towardsSun), light.dhi, 0.2);
+}
+
+/// Cells of equal solid angle: rings of equal height, cut into sectors.
+std::vector<gpu::SkyPatchRecord> ringCells()
+{
+    std::vector<gpu::SkyPatchRecord> cells;
+    for (int ring = 0; ring < 8; ++ring)
+        for (int sector = 0; sector < 24; ++sector) {
+            const double z = (ring + 0.5) / 8, turn = glm::radians(15.0 * sector), level = std::sqrt(1.0 - z * z);
+            cells.push_back({glm::vec3(level * std::cos(turn), level * std::sin(turn), z), 6.2831853f / (8 * 24), {}});
+        }
+    return cells;
+}
+
+TEST(PictureSky, FollowsTheSkyModel)
+{
+    const std::vector<gpu::SkyPatchRecord> cells = ringCells();
+    LightState light;
+    light.dhi = 100.0;
+    light.towardsSun = sunDirection(150, 40, 0);
+    const auto fit = [&](const auto& radianceOf) {
+        light.skyRadiance.clear();
+        for (const gpu::SkyPatchRecord& cell : cells)
+            light.skyRadiance.push_back({float(radianceOf(glm::dvec3(cell.direction))), {}});
+        return pictureSky(cells, light);
+    };
+    // The traditional overcast sky, three times as bright above as at the horizon, and dark around it.
+    light.dni = 0.0;
+    const double zenith = 9.0 / 7.0 * 100.0 / 3.14159265358979;
+    const PictureSky overcast = fit([&](const glm::dvec3& d) { return zenith * (1.0 + 2.0 * d.z) / 3.0; });
+    EXPECT_NEAR(luminanceOf(overcast.zenith), zenith, 0.25 * zenith);
+    EXPECT_NEAR(luminanceOf(overcast.horizon), zenith / 3.0, 0.25 * zenith);
+    EXPECT_LT(luminanceOf(overcast.glow), 0.3 * zenith);
+    EXPECT_NEAR(irradianceOf(overcast, light.towardsSun), 100.0, 0.2);
+    // A sky of the very shapes, whose weights come back; one of them negative in the best fit: it stays out.
+    light.dni = 800.0;
+    const auto glowing = [&](double weight) {
+        return [&, weight](const glm::dvec3& d) {
+            const double h = std::pow(1.0 - d.z, kSkyPower), c = std::max(glm::dot(d, light.towardsSun), 0.0);
+            return 20.0 * (1.0 - h) + 60.0 * h + weight * (0.25 * std::pow(c, 8.0) + 0.5 * std::pow(c, 64.0));
+        };
+    };
+    light.dhi = irradianceOf({glm::dvec3(20.0), glm::dvec3(60.0), glm::dvec3(90.0), {}}, light.towardsSun);
+    const PictureSky clear = fit(glowing(90.0));
+    EXPECT_NEAR(luminanceOf(clear.zenith), 20.0, 0.1);
+    EXPECT_NEAR(luminanceOf(clear.horizon), 60.0, 0.1);
+    EXPECT_NEAR(luminanceOf(clear.glow), 90.0, 0.1);
+    EXPECT_EQ(luminanceOf(fit(glowing(-10.0)).glow), 0.0);
 }
 
 } // namespace

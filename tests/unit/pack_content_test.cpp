@@ -58,6 +58,7 @@ AssetMesh triangleAsset(float depth, const glm::dvec4& rho)
     mesh.positions = {{0, 0, depth}, {1, 0, depth}, {0, 1, depth}};
     mesh.normals.assign(3, {0, 0, 1});
     mesh.albedos.assign(3, {1, 0.5f, 0});
+    mesh.isGlass.assign(3, depth > 0.0f);
     mesh.indices = {0, 1, 2};
     mesh.boxMin = {0, 0, 0};
     mesh.boxMax = {1, 1, double(depth)};
@@ -196,7 +197,7 @@ TEST(PackContent, AssetsAreDrawnOncePerMesh)
     EXPECT_FLOAT_EQ(glm::dot(window.worldFromLocal[0], corner), 3.0f);
     EXPECT_FLOAT_EQ(glm::dot(window.worldFromLocal[1], corner), 999.3f);
     EXPECT_FLOAT_EQ(glm::dot(window.worldFromLocal[2], corner), 0.0f);
-    EXPECT_EQ(c.vertices[c.draws[1].vertexOffset].albedo, 255u | 128u << 8 | 0u << 16 | 255u << 24);
+    EXPECT_EQ(c.vertices[c.draws[1].vertexOffset].albedo, 255u | 128u << 8 | 0u << 16) << "alpha 0: glass";
 }
 
 TEST(PackContent, BoundsHoldMeshesAndInstances)
@@ -255,7 +256,7 @@ TEST(PackContent, ATrimmedAssetIsCutAndDrawnByItself)
             EXPECT_LE(v->position.x, 2.0f + 1e-6f);
             EXPECT_NEAR(v->position.y, 1000.3 - 0.25, 1e-4);
             EXPECT_EQ(v->normal, packNormal({0, -1, 0}));
-            EXPECT_EQ(v->albedo, packAlbedo({1, 0.5, 0}));
+            EXPECT_EQ(v->albedo, packAlbedo({1, 0.5, 0}, true));
         }
     }
     EXPECT_NEAR(area, 0.5 - 0.125, 1e-5);

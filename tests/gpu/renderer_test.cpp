@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The four stages together.
+#include "engine/view/picture_sky.h"
 #include "engine/view/renderer.h"
 
 #include <cmath>
@@ -276,6 +277,34 @@ TEST_F(RendererTest, PixelIsAlbedoOverPiTimesWhatArrives)
     EXPECT_EQ(renderer->render(camera, 33, 33, view).values[16 * 33 + 16].a, float(yard.ground));
     view.mode = gpu::kModeIndirect;
     EXPECT_EQ(renderer->render(camera, 33, 33, view).values[16 * 33 + 16], glm::vec4(12.5f, 25.0f, 50.0f, 100.0f));
+}
+
+TEST_F(RendererTest, PanesReflectTheSkyInDisplayAlone)
+{
+    TileBuilder b;
+    b.quad({{{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}}}, glm::vec4(0.2f));
+    b.sky(0, 1.0f);
+    TileView matt = b.view(), glass = matt;
+    std::vector<gpu::VertexRecord> vertices(matt.vertices.begin(), matt.vertices.end());
+    for (gpu::VertexRecord& v : vertices) v.albedo &= 0xFFFFFFu;
+    glass.vertices = vertices;
+    Camera camera;
+    camera.eye = {0, 0, 40};
+    camera.target = {0, 0, 0};
+    camera.fovDegrees = 5.0;
+    const auto middle = [&](const TileView& tile, bool display) {
+        auto renderer = make(tile);
+        renderer->setSun(0.0, -90.0, 0.0);
+        return glm::dvec3(renderer->render(camera, 9, 9, {.display = display}).values[40]);
+    };
+    EXPECT_EQ(middle(glass, false), middle(matt, false));
+    // At right angles each face reflects (0.5 / 2.5)^2, the corners are seen within 16 degrees of it; no haze to speak
+    // of.
+    LightState night;
+    night.towardsSun = {0, 0, -1};
+    night.dni = 0.0;
+    const glm::dvec3 zenith = pictureSky({}, night).zenith, more = middle(glass, true) - middle(matt, true);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(more[c], 2.0 * 0.04 / 1.04 * zenith[c], 0.01 * zenith[c]);
 }
 
 TEST_F(RendererTest, BackgroundIsTheUniformSkyAndBlackBelow)

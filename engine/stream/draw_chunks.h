@@ -72,7 +72,8 @@ std::vector<gpu::DrawRecord> visibleDraws(std::span<const DrawChunk> chunks, con
 
 /// The same without what certainly shows the viewer its back: draws of closed surfaces, of which the device may leave
 /// out back faces, and the rest. viewer: the eye, with 1 as its last component, or the direction towards the sun, with
-/// 0. An eye inside a closed body looks out of it.
+/// 0. For an eye each list has the static mesh first and, of it and of the assets, near chunks before far ones. An eye
+/// inside a closed body looks out of it.
 struct FacingDraws
 {
     std::vector<gpu::DrawRecord> closed, open;

@@ -2,6 +2,7 @@
 // What the sun raster may leave out: backs of closed surfaces, and nothing else.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -109,6 +110,35 @@ TEST(Facing, WhatAnEyeMaySeeIsNeverLeftOut)
     }
     // From far away along x the ends that look away are left out, as the chunk's box alone tells.
     EXPECT_LT(Scene::count(facingDraws(scene.chunks, wideView(), {-200, 0.5f, 0.5f, 1}).closed), 36u);
+}
+
+TEST(Facing, AnEyeGetsNearChunksFirstAndTheStaticMeshBeforeAssets)
+{
+    // A row of plates, in several chunks, and an asset at each end: open all, for their draws to stand in one list.
+    TileBuilder b;
+    const float length = 3.0f * float(kChunkTriangles);
+    for (float x = 0.0f; x < length; ++x) b.quad({{{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}}}, kGrey);
+    const std::array<glm::vec3, 4> unit{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    for (const u32 place : {0u, 1u})
+        b.asset(place, unit,
+                {{glm::vec4(1, 0, 0, length * float(place)), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 2)}});
+    const Scene scene(b);
+    const auto places = [&](const glm::vec4& viewer) { // x, of every draw's first corner
+        std::vector<float> out;
+        for (const gpu::DrawRecord& draw : facingDraws(scene.chunks, wideView(), viewer).open)
+            out.push_back(scene.view.vertices[scene.indices[draw.firstIndex] + draw.vertexOffset].position.x +
+                          scene.view.instances[draw.firstInstance].worldFromLocal[0].w);
+        return out;
+    };
+    const float third = length / 3.0f;
+    // Where chunks follow each other as they lie among the indices they are one draw.
+    EXPECT_EQ(places({-10, 0, 5, 1}), (std::vector<float>{0, 0, length}));
+    const std::vector<float> backwards = places({length + 10, 0, 5, 1});
+    ASSERT_EQ(backwards.size(), 8u) << "six chunks and two assets";
+    for (size_t k = 0; k < 6; ++k) EXPECT_EQ(backwards[k], 0.5f * third * float(5 - k));
+    EXPECT_EQ(backwards[6], length);
+    EXPECT_EQ(backwards[7], 0.0f);
+    EXPECT_EQ(places({1, 0, 0, 0}), (std::vector<float>{0, 0, length})) << "the sun's stay as they are";
 }
 
 TEST(Facing, WhatIsOpenIsNeverLeftOut)

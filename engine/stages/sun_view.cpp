@@ -161,9 +161,9 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
             view.viewCount() <= options.maxViews)
             break;
     }
-    view.texelX = view.texelY = texel;
+    view.texel = texel;
     view.shear = float(skew * view.width / view.height);
-    const double margin = std::max({view.texelX, view.texelY, 1e-3 * (farthest - nearest), 1e-3});
+    const double margin = std::max({view.texel, 1e-3 * (farthest - nearest), 1e-3});
     view.depthRange = farthest - nearest + 2.0 * margin;
 
     const glm::dvec2 axisY = turnLeft(r.axis);
@@ -173,7 +173,7 @@ SunView fitSunView(std::span<const Box> boxes, glm::dvec3 towardsSun, const SunV
     const glm::dvec2 lo = glm::dvec2(r.lo.x + kSkew * r.lo.y, r.lo.y) - texel;
     const glm::dvec2 centre(glm::dot(x, anchor), glm::dot(y, anchor));
     const glm::dvec2 origin = centre + texel * glm::floor((lo - centre) / texel);
-    const double scaleX = 1.0 / (view.texelX * view.width), scaleY = 1.0 / (view.texelY * view.height);
+    const double scaleX = 1.0 / (view.texel * view.width), scaleY = 1.0 / (view.texel * view.height);
     const double scaleZ = 1.0 / view.depthRange;
     glm::dmat4 grid(1.0);
     for (int k = 0; k < 3; ++k) {

@@ -26,11 +26,11 @@ struct SunView
     glm::mat4 gridFromWorld{1.0f};          ///< x in [0, gridX], y in [0, gridY] (y up), z in [0, 1] away from the sun
     float shear = 0.0f; ///< added to y a unit of x from the left edge of each view, see clipFromWorld
     u32 gridX = 1, gridY = 1;
-    u32 width = 1, height = 1;         ///< texels of one view
-    double texelX = 1.0, texelY = 1.0; ///< m
-    double depthRange = 1.0;           ///< m
+    u32 width = 1, height = 1; ///< texels of one view
+    double texel = 1.0;        ///< m, side of a texel
+    double depthRange = 1.0;   ///< m
 
-    double texelArea() const { return texelX * texelY; }
+    double texelArea() const { return texel * texel; }
     u32 viewCount() const { return gridX * gridY; }
     /// Clip space of view (x, y) of the grid: view index = y * gridX + x.
     glm::mat4 clipFromWorld(u32 view) const;

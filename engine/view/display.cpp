@@ -53,7 +53,7 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
     v.sunDirection = glm::vec4(glm::vec3(light.towardsSun), light.sunUp() ? 1.0f : 0.0f);
     v.gridSize = glm::vec2(sun.gridX, sun.gridY);
     v.shadowStep = 1.0f / glm::vec2(sun.width, sun.height);
-    v.shadowTexel = float(std::max(sun.texelX, sun.texelY));
+    v.shadowTexel = float(sun.texel);
     v.sunShear = sun.shear;
     v.depthRange = float(sun.depthRange);
     v.emissionScale = light.emission ? 1.0f : 0.0f;

@@ -189,8 +189,7 @@ void LightSolver::sampleSun(const LightState& light)
     report_.litPatches = tally.lit;
     report_.flaggedPatches = tally.flagged;
     report_.excessPatches = tally.excess;
-    report_.sunTexelX = sunView_.texelX;
-    report_.sunTexelY = sunView_.texelY;
+    report_.sunTexel = sunView_.texel;
     report_.sunViews = raster ? sunView_.viewCount() : 0;
     report_.sunWidth = sunView_.width;
     report_.sunHeight = sunView_.height;
@@ -212,7 +211,7 @@ void LightSolver::takeGiven(const FirstLight& light)
     upload(context_, sun_, light.sun);
     upload(context_, sky_, light.sky);
     report_.litPatches = report_.flaggedPatches = report_.excessPatches = 0;
-    report_.sunTexelX = report_.sunTexelY = 0.0;
+    report_.sunTexel = 0.0;
     report_.sunViews = report_.sunWidth = report_.sunHeight = 0;
 }
 

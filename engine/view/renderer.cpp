@@ -73,8 +73,12 @@ struct Renderer::Impl
     /// The mesh of interpolated light is made when a picture first asks for it. False: it is too large for the device.
     bool needSmoothMesh()
     {
-        if (smooth.patchCount == 0 && smooth.tooLarge == 0)
+        if (smooth.patchCount == 0 && smooth.tooLarge == 0) {
             smooth = uploadSmoothMesh(context, view, tile.reads, smoothBytes());
+            if (smooth.tooLarge > 0)
+                pictureNote = concat("light is drawn by the patch: interpolated it takes ", smooth.tooLarge >> 20,
+                                     " MiB in one buffer, of which ", smoothBytes() >> 20, " MiB can be bound");
+        }
         return smooth.tooLarge == 0;
     }
 
@@ -150,7 +154,7 @@ struct Renderer::Impl
     FarGround ground; // at the lowest point of what is drawn
     TileTables tile;
     LightSolver solver;
-    std::string note;
+    std::string note, pictureNote;
     LightState light;
     Buffer viewRecord;
     Recorder recorder;
@@ -223,6 +227,11 @@ void Renderer::setFirstLight(std::shared_ptr<const FirstLight> light)
 const std::string& Renderer::note() const
 {
     return impl_->note;
+}
+
+const std::string& Renderer::pictureNote() const
+{
+    return impl_->pictureNote;
 }
 
 SolveOptions& Renderer::solveOptions()
@@ -327,9 +336,6 @@ Picture Renderer::render(const Camera& camera, u32 width, u32 height, const View
     picture.width = width;
     picture.height = height;
     picture.passes = r.recorder.times();
-    if (options.mode == gpu::kModeFinal && options.smoothLight && r.smooth.tooLarge > 0)
-        picture.note = concat("light is drawn by the patch: interpolated it takes ", r.smooth.tooLarge >> 20,
-                              " MiB in one buffer, of which ", r.smoothBytes() >> 20, " MiB can be bound");
     picture.display = downloadTexels<u8>(r.context, r.images.display);
     if (options.mode >= gpu::kModeLevel)
         drawLegend(picture, r.largestValue,

@@ -51,13 +51,13 @@ struct SolveReport
     /// W/m2, a channel: no patch of that radiosity is further from the solution, rounding aside; the result's own are
     /// off by at most the contraction number, and its E_indirect by the row sum, times this. Infinite from number 1 on.
     glm::dvec4 bound{0.0};
-    glm::dvec4 contraction{0.0};             ///< see Contraction::number
-    bool accelerated = false;                ///< Chebyshev's semi-iteration (chebyshevRadius), in some channel at least
-    glm::dvec4 meanRadiosity{0.0};           ///< W/m2, area-weighted mean of B over all patches
-    u32 litPatches = 0;                      ///< patches that face the sun
-    u32 flaggedPatches = 0;                  ///< of them, lit by an ancestor's ratio: too few texels, or grazing
-    u32 excessPatches = 0;                   ///< of them, more texels than their area explains; clamped
-    double sunTexelX = 0.0, sunTexelY = 0.0; ///< m
+    glm::dvec4 contraction{0.0};   ///< see Contraction::number
+    bool accelerated = false;      ///< Chebyshev's semi-iteration (chebyshevRadius), in some channel at least
+    glm::dvec4 meanRadiosity{0.0}; ///< W/m2, area-weighted mean of B over all patches
+    u32 litPatches = 0;            ///< patches that face the sun
+    u32 flaggedPatches = 0;        ///< of them, lit by an ancestor's ratio: too few texels, or grazing
+    u32 excessPatches = 0;         ///< of them, more texels than their area explains; clamped
+    double sunTexel = 0.0;         ///< m
     u32 sunViews = 0, sunWidth = 0, sunHeight = 0;
     u32 sunSamples = 0;           ///< rasters whose counts add up, see Renderer::refineSun
     std::vector<PassTime> stages; ///< milliseconds on the device: sun raster, histogram, sun energy, sky, gather
@@ -70,7 +70,7 @@ struct ViewOptions
     u32 picked = 0;             ///< patch whose links kModeLinks shows
     u32 samples = 1;            ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
     bool smoothLight = true; ///< final: interpolate E_sky and E_indirect over coplanar patches (display only), if the
-                             ///< device can hold that; else Picture::note says so
+                             ///< device can hold that; else pictureNote() says so
     bool display = true;     ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
     double exposureStops = 0.0; ///< added to the automatic exposure
 };
@@ -82,7 +82,6 @@ struct Picture
     std::vector<u8> display;       ///< RGBA, sRGB
     std::vector<glm::vec4> values; ///< linear, mean of the samples: see addForward for the unit of each mode
     std::vector<PassTime> passes;
-    std::string note; ///< one sentence if something of the view could not be had; else empty
 };
 
 /// Light of every patch, W/m2: linear r, g, b, broadband solar.
@@ -121,6 +120,8 @@ public:
     const TileTables& tables() const;
     /// One sentence if the links may keep the sweeps from converging or their error from being bounded; else empty.
     const std::string& note() const;
+    /// One sentence if a picture asked for interpolated light that the device cannot hold; else empty.
+    const std::string& pictureNote() const;
 
     /// Stages 1 to 3, if the light changed since the last call. Blocks until the device is done.
     const SolveReport& solve();

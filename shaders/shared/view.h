@@ -53,7 +53,7 @@ struct ViewRecord {
     vec2 rayStep;          // m, to the right and up, that a sample's distance to the right and down makes 1 m before the eye
     vec2 gridSize;         // views in x and y
     vec2 shadowStep;       // texel of the sun raster in texture coordinates
-    float shadowTexel;     // m, the longer side
+    float shadowTexel;     // m
     float sunShear;        // see SunView: added to y a unit of x inside a view
     float depthRange;      // m of light space from depth 0 to 1
     float emissionScale;

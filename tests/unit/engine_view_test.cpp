@@ -141,7 +141,7 @@ TEST(SunView, TexelsLieFastOnTheCentreAsTheSunMoves)
     std::set<double> texels, widths;
     for (u32 t = 0; t < 40; ++t) {
         const SunView view = fitSunView(boxes, sunDirection(140 + 0.05 * t, 35, 0), options);
-        texels.insert(view.texelX);
+        texels.insert(view.texel);
         widths.insert(view.width * view.gridX + 1e5 * view.height * view.gridY);
         EXPECT_NEAR(place(view).x, 0.0, 0.01) << t;
         EXPECT_NEAR(place(view).y, 0.0, 0.01) << t;
@@ -163,7 +163,7 @@ TEST(SunView, AStreetGetsTexelsShapedToIt)
     const u64 texels = u64(view.viewCount()) * view.width * view.height;
     EXPECT_LE(texels, options.maxTexels);
     EXPECT_LT(double(texels) * view.texelArea(), 4100.0 * 90.0);
-    EXPECT_LT(view.texelX, 0.08);
+    EXPECT_LT(view.texel, 0.08);
     EXPECT_LE(std::max(view.width, view.height), options.maxViewSize);
 }
 

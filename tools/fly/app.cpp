@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <iostream>
+#include <utility>
 
 #include "engine/view/picture_file.h"
 
@@ -153,6 +154,8 @@ bool FlyApp::drawFrame(ShownPicture* capture)
     graph.execute(*recorder_);
     recorder_->submitAndWait();
     frameMs_ = 1000.0 * secondsSince(begin);
+    if (!std::exchange(drawn_, true) && !renderer_->pictureNote().empty())
+        std::cout << "Note: " << renderer_->pictureNote() << std::endl;
     return swapchain_->show(renderer_->displayImage(), capture);
 }
 

@@ -44,10 +44,9 @@ void printSolve(const RenderOptions& o, const SolveReport& report)
 {
     if (o.firstLight.empty())
         std::printf(
-            "Sun raster: %u views of %u x %u texels of %.3f x %.3f m; of %u patches that face the sun %u take an "
-            "ancestor's "
+            "Sun raster: %u views of %u x %u texels of %.3f m; of %u patches that face the sun %u take an ancestor's "
             "ratio, %u clamped\n",
-            report.sunViews, report.sunWidth, report.sunHeight, report.sunTexelX, report.sunTexelY, report.litPatches,
+            report.sunViews, report.sunWidth, report.sunHeight, report.sunTexel, report.litPatches,
             report.flaggedPatches, report.excessPatches);
     std::printf("Residual %.3g after %u sweeps%s%s; mean radiosity %.4g W/m2 (solar)\n", report.residual, report.sweeps,
                 report.accelerated ? " of Chebyshev's semi-iteration" : "", shortfall(o, report),
@@ -80,7 +79,11 @@ void printAudit(const EnergyAudit& audit)
 void printPicture(const Picture& picture)
 {
     std::printf("  %-28s %9.2f ms\n", "4 forward shading, tone", totalTime(picture.passes));
-    if (!picture.note.empty()) std::printf("Note: %s\n", picture.note.c_str());
+}
+
+void printPictureNote(const Renderer& renderer)
+{
+    if (!renderer.pictureNote().empty()) std::printf("Note: %s\n", renderer.pictureNote().c_str());
 }
 
 std::string describeLight(const RenderOptions& o, const Daylight& light, const SolveReport& report)
@@ -209,6 +212,7 @@ int runMain(int argc, char** argv)
         const Status drawn = renderDay(renderer, context, *pack, *camera, o);
         if (!drawn) return complain(drawn.error().message, kBadInput);
         steps.done("day");
+        printPictureNote(renderer);
         if (const Status written = writeGraphs(o, graphs); !written)
             return complain(written.error().message, kBadInput);
         return reportValidation(context, o);
@@ -226,6 +230,7 @@ int runMain(int argc, char** argv)
     if (const Status written = o.path.empty() ? writePictures(renderer, *camera, o) : renderPath(renderer, path, o);
         !written)
         return complain(written.error().message, kBadInput);
+    printPictureNote(renderer);
     if (!o.table.empty()) {
         const Result<std::string> text = tableText(*pack, tables, o.rows, describeLight(o, *light, report));
         if (!text) return complain(text.error().message, kBadInput);

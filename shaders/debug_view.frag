@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stage 4: the debug views that show what a surface is, or a quantity of its patch, without light.
+// Stage 4: views that show what a surface is, or a quantity of its patch, and need no light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

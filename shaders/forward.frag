@@ -26,14 +26,9 @@ layout(location = 0) out vec4 oRadiance;
 // with the depth that the point's own plane has at the texel's centre (its depth there is what the raster stored), so the
 // test stays sharp at grazing light, where any constant bias would move shadows by metres. Where the plane falls away from
 // the sun the point's own depth is taken instead: beyond a concave edge there is another surface, not the plane.
-float sunVisibility()
+// slope: depth a texel along that plane, in x and in y.
+float sunVisibility(vec2 slope, bool shines)
 {
-    // Depth a texel along the plane, from how places in the sun's picture change from pixel to pixel.
-    const vec3 across = dFdx(vSun.xyz), up = dFdy(vSun.xyz);
-    const float area = across.x * up.y - up.x * across.y;
-    const float steepest = 10.0 / view.depthRange;
-    vec2 slope = vec2(across.z * up.y - up.z * across.y, across.x * up.z - up.x * across.z) / area;
-    slope = area == 0.0 ? vec2(0.0) : clamp(slope, -steepest, steepest);
     const float bias = (0.002 + 0.25 * view.shadowTexel) / view.depthRange + 0.02 * (abs(slope.x) + abs(slope.y));
 
     const vec3 place = vSun.xyz + vec3(params.sunRow0.w, params.sunRow1.w, params.sunRow2.w);
@@ -52,7 +47,7 @@ float sunVisibility()
     const float inPlane = dot(slope, first + 0.5 - texel);
     float sum = 0.0;
     // A loop of no rounds where the sun does not shine: software devices walk through a branch that no lane takes.
-    const int gathers = view.sunDirection.w != 0.0 && vSun.w > 0.0 ? 4 : 0;
+    const int gathers = shines ? 4 : 0;
     for (int k = 0; k < gathers; ++k) {
         const vec2 corner = vec2(k & 1, k >> 1);
         // Order of a gather: (0, 1), (1, 1), (1, 0), (0, 0).
@@ -68,11 +63,20 @@ float sunVisibility()
 
 void main()
 {
+    // How places in the sun's picture change from pixel to pixel. The sun and the eye see the same side of a surface if what
+    // turns clockwise in one picture does so in the other: surfaces have two sides, whatever their normal.
+    const vec3 across = dFdx(vSun.xyz), down = dFdy(vSun.xyz);
+    const float area = across.x * down.y - down.x * across.y;
+    const float steepest = 10.0 / view.depthRange;
+    const vec2 slope = vec2(across.z * down.y - down.z * across.y, across.x * down.z - down.x * across.z) / area;
+    const float cosine = area > 0.0 ? abs(vSun.w) : 0.0;
+    const bool shines = view.sunDirection.w != 0.0 && cosine > 0.0;
+    const float visible = sunVisibility(area == 0.0 ? vec2(0.0) : clamp(slope, -steepest, steepest), shines);
     if (kMode == kModeSunVisibility) {
-        oRadiance = vec4(sunVisibility());
+        oRadiance = vec4(visible);
         return;
     }
-    vec3 radiance = vAlbedo * (view.sunLight.rgb * (max(vSun.w, 0.0) * sunVisibility()) + vLight);
+    vec3 radiance = vAlbedo * (view.sunLight.rgb * (cosine * visible) + vLight);
     if (kEmitters) radiance += view.emissionScale * readVec4(emission, vPatch).rgb;
     // Distance turns to the horizon's colour.
     oRadiance = vec4(mix(view.horizon.rgb, radiance / kPi, exp(-params.eye.w * distanceOf())), 1.0);

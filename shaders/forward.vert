@@ -12,13 +12,12 @@
 
 layout(constant_id = 0) const uint kMode = kModeFinal;
 layout(constant_id = 1) const bool kInterpolate = false; // of the smooth mesh alone
-layout(constant_id = 3) const bool kTwoSided = true;     // open surfaces: the normal follows the side that is seen
 layout(push_constant, scalar) uniform Params { ForwardParams params; };
 layout(location = kAttributeAlbedo) in uint aAlbedo;
 HELIO_READS_UINT(valueOf, kForwardValueOf)
 HELIO_READS_VEC4(light, kForwardLight)
 layout(location = 0) out vec4 vSun;   // place in the sun's picture, seen from the eye's: small near it, so that its
-                                      // derivatives are precise; and the cosine of the sun
+                                      // derivatives are precise; and the cosine of the sun to the normal
 layout(location = 1) out vec3 vLight; // one value a patch, or interpolated
 layout(location = 2) flat out vec3 vAlbedo;
 layout(location = 3) flat out uint vPatch;
@@ -27,10 +26,10 @@ const float kPi = 3.14159265358979;
 
 // What a pane of glass reflects: Fresnel at its two faces (Schlick, An inexpensive BRDF model, 1994; n = 1.5), without
 // interference 2 R / (1 + R). Near the horizon a city stands before the sky: it shines with its own soft light.
-// toEye, normal: unit; light: soft light there, W/m2. Radiance, W/m2/sr.
+// toEye, normal: unit, from either side; light: soft light there, W/m2. Radiance, W/m2/sr.
 vec3 reflectedByPane(vec3 toEye, vec3 normal, vec3 light)
 {
-    const float cosine = clamp(dot(normal, toEye), 0.0, 1.0);
+    const float cosine = min(abs(dot(normal, toEye)), 1.0);
     const float face = 0.04 + 0.96 * pow(1.0 - cosine, 5.0);
     const vec3 direction = reflect(-toEye, normal);
     const vec3 city = 0.3 / kPi * light;
@@ -40,8 +39,7 @@ vec3 reflectedByPane(vec3 toEye, vec3 normal, vec3 light)
 void main()
 {
     const vec3 position = worldPosition(), fromEye = position - params.eye.xyz;
-    vec3 normal = normalize(worldNormal());
-    if (kTwoSided) normal = dot(normal, fromEye) > 0.0 ? -normal : normal;
+    const vec3 normal = normalize(worldNormal());
     vSun = vec4(dot(params.sunRow0.xyz, fromEye), dot(params.sunRow1.xyz, fromEye), dot(params.sunRow2.xyz, fromEye),
                 dot(normal, view.sunDirection.xyz));
     vPatch = patchOfVertex();
@@ -50,7 +48,9 @@ void main()
     vAlbedo = albedo.rgb;
     // As light that makes the pane as bright as the reflection does. A loop, since software devices walk through a branch.
     const int panes = kMode == kModeFinal && view.glow.w > 0.0 && albedo.a == 0.0 ? 1 : 0;
-    for (int k = 0; k < panes; ++k)
-        vLight += kPi * reflectedByPane(normalize(-fromEye), normal, vLight) / max(albedo.rgb, vec3(0.01));
+    for (int k = 0; k < panes; ++k) {
+        vAlbedo = max(vAlbedo, vec3(0.01));
+        vLight += kPi * reflectedByPane(normalize(-fromEye), normal, vLight) / vAlbedo;
+    }
     gl_Position = params.clipFromWorld * vec4(position, 1.0);
 }

@@ -109,11 +109,11 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingL
                 const auto draw = [&](const CityMesh& mesh, bool twoSided, bool smoothed, u32 first) {
                     if (first == mesh.count()) return;
                     GraphicsPipelineDesc city;
-                    city.vertex = &kForwardVert[smoothed ? smoothReads : reads];
+                    city.vertex = &kForwardVert[smoothReads];
                     city.fragment = &(lit ? kForwardFrag : kDebugViewFrag)[reads];
                     city.cull = twoSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
                     city.depthCompare = VK_COMPARE_OP_GREATER;
-                    city.constants = {{0, mode}, {1, smoothed}, {2, emitters}, {3, twoSided}};
+                    city.constants = {{0, mode}, {1, smoothed}, {2, emitters}};
                     CityMesh::describe(city, true);
                     drawing.pipeline(std::move(city));
                     std::vector<Binding> bindings{storage(gpu::kForwardView, view),

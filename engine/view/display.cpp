@@ -47,8 +47,7 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
     gpu::ViewRecord v{};
     v.worldFromClip = glm::mat4(glm::inverse(clipFromWorld(camera, size.x / size.y)));
     v.rayCentre = glm::vec2(0.5 * size);
-    const double step = 2.0 * std::tan(glm::radians(camera.fovDegrees) / 2.0) / size.y;
-    v.rayStep = glm::vec2(step, -step);
+    v.rayStep = float(2.0 * std::tan(glm::radians(camera.fovDegrees) / 2.0) / size.y);
     v.eye = glm::vec4(glm::vec3(camera.eye), 0.0f);
     v.sunDirection = glm::vec4(glm::vec3(light.towardsSun), light.sunUp() ? 1.0f : 0.0f);
     v.gridSize = glm::vec2(sun.gridX, sun.gridY);

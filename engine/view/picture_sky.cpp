@@ -9,8 +9,6 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "city/format/pack.h"
-
 namespace helio {
 
 namespace {
@@ -38,7 +36,7 @@ glm::dvec3 irradianceOfShapes(const glm::dvec3& towardsSun)
     return sum * (std::numbers::pi / (kRings * kSectors));
 }
 
-/// Weights >= 0 of the shapes, by least squares over the cells.
+/// Weights >= 0 of the shapes, by least squares over the cells; 0 if the cells are dark.
 glm::dvec3 fitCells(std::span<const gpu::SkyPatchRecord> cells, const LightState& light)
 {
     glm::dmat3 normal(0.0);
@@ -48,8 +46,10 @@ glm::dvec3 fitCells(std::span<const gpu::SkyPatchRecord> cells, const LightState
         normal += double(cells[i].solidAngle) * glm::outerProduct(shape, shape);
         right += double(cells[i].solidAngle) * double(light.skyRadiance[i].mean) * shape;
     }
-    // Of eight sets of shapes that may take part the first, from the largest on, that needs no negative weight.
-    for (const unsigned kept : {7u, 3u, 5u, 6u, 1u, 2u, 4u}) {
+    // Every set of shapes that may take part, of which the best is that without negative weights whose squares are
+    // least: a fit takes weights . right away from them.
+    glm::dvec3 best(0.0);
+    for (unsigned kept = 1; kept < 8; ++kept) {
         glm::dmat3 m = normal;
         glm::dvec3 r = right;
         for (int k = 0; k < 3; ++k)
@@ -57,10 +57,20 @@ glm::dvec3 fitCells(std::span<const gpu::SkyPatchRecord> cells, const LightState
                 for (int l = 0; l < 3; ++l) m[k][l] = m[l][k] = k == l ? 1.0 : 0.0;
                 r[k] = 0.0;
             }
+        constexpr double kSingular = 1e-9; // sr: shapes that the cells cannot tell apart, or a glow without a sun
+        if (glm::determinant(m) < kSingular) continue;
         const glm::dvec3 weights = glm::inverse(m) * r;
-        if (glm::all(glm::greaterThanEqual(weights, glm::dvec3(0.0)))) return weights;
+        if (std::min({weights.x, weights.y, weights.z}) >= 0.0 && glm::dot(weights, right) > glm::dot(best, right))
+            best = weights;
     }
-    return glm::dvec3(0.0);
+    return best;
+}
+
+/// 1 under a clear sky, 0 where the sun stands above the horizon and does not come through.
+double clearness(const LightState& light)
+{
+    const double share = light.dni / std::max(light.dni + light.dhi, 1e-9);
+    return glm::mix(1.0, glm::smoothstep(0.0, 0.35, share), glm::smoothstep(0.0, 0.05, light.towardsSun.z));
 }
 
 } // namespace
@@ -72,17 +82,16 @@ glm::dvec3 tintOf(const glm::dvec3& colour)
 
 PictureSky pictureSky(std::span<const gpu::SkyPatchRecord> skyPatches, const LightState& light)
 {
-    // Warm and weak near the horizon, nearly white above 30 degrees; grey where the sun's share of the light is small.
-    const double high = glm::smoothstep(0.0, 0.5, std::max(light.towardsSun.z, 0.0));
-    const double clear =
-        light.towardsSun.z > 0.0 ? glm::smoothstep(0.0, 0.35, light.dni / std::max(light.dni + light.dhi, 1e-9)) : 1.0;
+    const double high = glm::smoothstep(0.0, 0.5, light.towardsSun.z), clear = clearness(light);
     const auto colour = [&](glm::dvec3 low, glm::dvec3 noon) {
         return tintOf(glm::mix(glm::dvec3(0.95, 1.0, 1.06), tintOf(glm::mix(low, noon, high)), clear));
     };
-    glm::dvec3 weights = light.skyRadiance.empty() ? glm::dvec3(0.75, 1.55, light.sunUp() ? 1.25 : 0.0)
-                                                   : fitCells(skyPatches.first(light.skyRadiance.size()), light);
-    const double irradiance = glm::dot(irradianceOfShapes(light.towardsSun), weights);
-    weights *= irradiance > 0.0 ? light.dhi / irradiance : 0.0;
+    glm::dvec3 weights =
+        light.skyRadiance.empty() ? glm::dvec3(0.0) : fitCells(skyPatches.first(light.skyRadiance.size()), light);
+    if (weights == glm::dvec3(0.0)) weights = {0.75, 1.55, light.sunUp() ? 1.25 : 0.0};
+    // What is far away fades to the horizon, which no sky has black.
+    weights[1] = std::max(weights[1], 0.25 * weights[0]);
+    weights *= light.dhi / glm::dot(irradianceOfShapes(light.towardsSun), weights);
     return {weights[0] * colour({0.42, 0.70, 1.25}, {0.34, 0.80, 1.75}),
             weights[1] * colour({1.75, 1.42, 1.15}, {1.40, 1.72, 2.05}),
             weights[2] * colour({2.4, 1.3, 0.6}, {1.2, 1.1, 0.9}), colour({0.82, 0.88, 1.0}, {0.74, 0.87, 1.0})};

@@ -18,9 +18,10 @@ struct PictureSky
 };
 inline constexpr double kSkyPower = 3.0;
 
-/// Fits that sky to the light: in luminance by least squares to the cells' radiances, where it has some, else of the
-/// shape of a clear sky; and such that an open horizontal plane gets the DHI. Colours are for display alone: blue above
-/// and warm below where the sun is low, grey where the sun does not come through. skyPatches: those of the pack.
+/// Fits that sky to the light: in luminance by least squares to the cells' radiances, where it has some that shine,
+/// else of the shape of a clear sky; the horizon at least a quarter as bright as the zenith; and such that an open
+/// horizontal plane gets the DHI. Colours are for display alone: blue above and warm below where the sun is low, grey
+/// where the sun stands above the horizon and does not come through. skyPatches: those of the pack.
 PictureSky pictureSky(std::span<const gpu::SkyPatchRecord> skyPatches, const LightState& light);
 
 /// Scales a colour to luminance 1 (Rec. 709), so that a tint changes no brightness.

@@ -82,6 +82,14 @@ struct Renderer::Impl
         return smooth.tooLarge == 0;
     }
 
+    std::optional<PictureSky> sky(bool display)
+    {
+        if (!display) return {};
+        if (std::exchange(displaySkyOf, solver.solveCount()) != solver.solveCount())
+            displaySky = pictureSky(tile.skyPatches, light);
+        return displaySky;
+    }
+
     /// Soft light for pictures, worked out anew when the light changed, or the colour of its sky.
     void addLight(FrameGraph& graph, ShadeInputs& in, const std::optional<PictureSky>& sky)
     {
@@ -167,6 +175,8 @@ struct Renderer::Impl
         bool operator==(const SoftLightOf&) const = default;
     };
     std::optional<SoftLightOf> softLightOf, smoothLightOf; // of what the buffers hold
+    PictureSky displaySky;
+    u64 displaySkyOf = 0; // solveCount
     FrameImages images;
     FacingLists drawn, smoothDrawn;
     Buffer values;
@@ -285,8 +295,7 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     const glm::uvec2 size(width * samples, height * samples);
     const gpu::ForwardParams params =
         forwardParams(camera, double(width) / height, r.solver.sunView(), options.display);
-    std::optional<PictureSky> sky;
-    if (options.display) sky = pictureSky(r.tile.skyPatches, r.light);
+    const std::optional<PictureSky> sky = r.sky(options.display);
     const gpu::ViewRecord record = viewRecord(camera, size, r.light, r.solver.sunView(), r.ground, sky);
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();

@@ -3,6 +3,6 @@
 // m, of the point in hand from the eye.
 float distanceOf()
 {
-    const vec2 ray = (gl_FragCoord.xy - view.rayCentre) * view.rayStep;
+    const vec2 ray = view.rayStep * (gl_FragCoord.xy - view.rayCentre);
     return sqrt(1.0 + dot(ray, ray)) / gl_FragCoord.w;
 }

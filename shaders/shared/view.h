@@ -16,15 +16,15 @@ HELIO_CONSTANT uint kModeSky = 5u;
 HELIO_CONSTANT uint kModeIndirect = 6u;
 HELIO_CONSTANT uint kModeRadiosity = 7u;
 HELIO_CONSTANT uint kModeAlbedo = 8u;
-// A number a patch, in false colour; bound as the radiosity.
+// A number a patch, in false colour.
 HELIO_CONSTANT uint kModeLevel = 9u;       // ancestors in the tree
 HELIO_CONSTANT uint kModeLinks = 10u;      // form factor from a picked patch, a square metre
 HELIO_CONSTANT uint kModeResidual = 11u;   // what the last sweep changed of B, W/m2
 HELIO_CONSTANT uint kModeError = 12u;      // expected error of E_indirect, W/m2
 
 HELIO_CONSTANT uint kForwardView = 0u;     // ViewRecord
-HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array of the sun raster; not in debug views
-HELIO_CONSTANT uint kForwardShown = 2u;    // vec4 a patch: what a debug view shows; emission in others
+HELIO_CONSTANT uint kForwardShadow = 1u;   // depth array of the sun raster; of lit views alone: final and sun visibility
+HELIO_CONSTANT uint kForwardShown = 2u;    // vec4 a patch: of lit views the emission, of others what they show
 HELIO_CONSTANT uint kForwardLight = 3u;    // soft light: of the patches, or the values of smooth_fans and its kin
 HELIO_CONSTANT uint kForwardValueOf = 4u;  // which of these values a vertex of the smooth mesh takes
 
@@ -49,14 +49,15 @@ struct ViewRecord {
     vec4 glow;             // radiance added around the sun; w = 1 where panes of glass reflect the sky, display only
     vec4 ground;           // radiance of the ground beyond the scene; w = height of the eye above it, m
     vec4 eye;              // m
-    vec2 rayCentre;        // middle of the picture, in its texels
-    vec2 rayStep;          // m, to the right and up, that a sample's distance to the right and down makes 1 m before the eye
+    vec2 rayCentre;        // middle of the picture, in its samples
     vec2 gridSize;         // views in x and y
     vec2 shadowStep;       // texel of the sun raster in texture coordinates
     float shadowTexel;     // m
     float sunShear;        // see SunView: added to y a unit of x inside a view
     float depthRange;      // m of light space from depth 0 to 1
     float emissionScale;
+    float rayStep;         // m a sample, 1 m before the eye
+    float pad0;
 };
 HELIO_SIZE(ViewRecord, 224);
 

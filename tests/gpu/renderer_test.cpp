@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The four stages together.
-#include "engine/view/picture_sky.h"
 #include "engine/view/renderer.h"
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <numbers>
 
 #include "engine/stages/shade.h"
+#include "engine/view/picture_sky.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/tile_builder.h"
 
@@ -426,7 +426,15 @@ TEST_F(RendererTest, InterpolatedLightHasNoStepsAndFollowsTheSky)
     (void)renderer->solve(); // before the picture
     const std::vector<float> second = row();
     for (u32 x = 0; x < 64; ++x) EXPECT_NEAR(second[x], 2.0f * first[x], 1e-4f * second[x]) << x;
-    view.smoothLight = false;
+    // A picture for display in between, whose sky has another colour, leaves nothing behind.
+    for (const bool smooth : {true, false}) {
+        view.smoothLight = smooth;
+        const std::vector<float> linear = row();
+        view.display = true;
+        EXPECT_NE(row(), linear);
+        view.display = false;
+        EXPECT_EQ(row(), linear) << smooth;
+    }
     const std::vector<float> flat = row();
     EXPECT_NEAR(flat[40] - flat[20], 2.0f * step, 0.01f * step);
 }

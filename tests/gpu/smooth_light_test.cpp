@@ -37,7 +37,8 @@ TEST_F(SmoothLightTest, AgreesWithTheTwin)
     const TileView view = b.view();
     const SmoothMesh mesh = buildSmoothMesh(b.vertices, b.indices, b.patches, {});
     const std::vector<glm::vec4> means = randomLight(random, b.patches.size());
-    const std::vector<glm::dvec4> twin = twin::smoothLight(mesh, std::vector<glm::dvec4>(means.begin(), means.end()));
+    const std::vector<glm::dvec4> expected =
+        twin::smoothLight(mesh, std::vector<glm::dvec4>(means.begin(), means.end()));
     const Buffer meansBuffer = makeBuffer(context(), "means", means);
     for (const Reads reads : {Reads::Texels, Reads::Images, Reads::Storage}) {
         if (!canRead(context(), reads, mesh.indices.size())) continue;
@@ -53,12 +54,12 @@ TEST_F(SmoothLightTest, AgreesWithTheTwin)
             recorder.submitAndWait();
         }
         const auto values = downloadItems<glm::vec4>(context(), tables.values);
-        ASSERT_EQ(values.size(), twin.size());
-        for (size_t i = 0; i < twin.size(); ++i)
+        ASSERT_EQ(values.size(), expected.size());
+        for (size_t i = 0; i < expected.size(); ++i)
             for (int c = 0; c < 4; ++c) {
                 // Values are differences of means: the error is that of the largest.
                 const double largest = c == 2 ? 1e4 : 100.0;
-                EXPECT_NEAR(double(values[i][c]), twin[i][c], 1e-5 * largest) << i << ", reads " << int(reads);
+                EXPECT_NEAR(double(values[i][c]), expected[i][c], 1e-5 * largest) << i << ", reads " << int(reads);
                 EXPECT_GE(values[i][c], 0.0f);
             }
     }

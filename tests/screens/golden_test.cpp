@@ -57,7 +57,7 @@ constexpr const char* kCourtCamera = "30,-14,26,12,8,2,50";
 constexpr const char* kTowerFoot = "-30,-60,9,0,10,20,65";
 constexpr const char* kSceneCamera = "12,-27,54,48,51,4,38";
 
-/// Light by the patch and interpolated, of two cities under three suns and under a sky without one.
+/// Light by the patch and interpolated, of two cities under three suns and under an overcast sky.
 std::vector<Screen> shadingScreens()
 {
     struct City
@@ -74,7 +74,7 @@ std::vector<Screen> shadingScreens()
     std::vector<Screen> screens;
     for (const City& city : {City{"court", TestPack::City, kCourtCamera}, City{"tower", TestPack::Tower, kTowerFoot}})
         for (const Sky& sky : {Sky{"morning", 95, 14, 500, 60}, Sky{"noon", 180, 60, 850, 100},
-                               Sky{"evening", 250, 25, 650, 80}, Sky{"overcast", 0, -10, 0, 200}})
+                               Sky{"evening", 250, 25, 650, 80}, Sky{"overcast", 180, 40, 0, 200}})
             for (const bool smooth : {false, true}) {
                 Screen s{concat("shading_", city.name, "_", sky.name, smooth ? "_smooth.png" : "_flat.png"),
                          city.pack,
@@ -148,11 +148,21 @@ GoldenFolders goldenFolders()
             std::filesystem::path(HELIO_SCREENS_OUT) / driver};
 }
 
+/// The traditional overcast sky, three times as bright above as at the horizon: 7 pi / 9 of its zenith on the ground.
+std::vector<CellRadiance> overcast(const TileView& tile, double dhi)
+{
+    std::vector<CellRadiance> radiance;
+    for (const gpu::SkyPatchRecord& cell : tile.skyPatches.first(skyCellCount(tile.skyPatches)))
+        radiance.push_back({float(3.0 * dhi / (7.0 * 3.14159265358979) * (1.0 + 2.0 * double(cell.direction.z))), {}});
+    return radiance;
+}
+
 TestImage renderScreen(const Screen& screen)
 {
     Renderer& renderer = testRenderer(screen.pack);
     renderer.setSun(screen.sunAzimuth, screen.sunElevation, screen.dni);
-    renderer.setSky(screen.dhi);
+    renderer.setSky(screen.dhi, screen.dni > 0.0 ? std::vector<CellRadiance>{}
+                                                 : overcast(testPack(screen.pack).tile(), screen.dhi));
     const Camera camera = parseCamera(screen.camera, testPack(screen.pack)).value();
     const Picture picture = renderer.render(camera, kWidth, kHeight, screen.view);
     TestImage image = makeTestImage(kWidth, kHeight, 0);

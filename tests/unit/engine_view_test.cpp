@@ -363,6 +363,35 @@ TEST(PictureSky, FollowsTheSkyModel)
     EXPECT_NEAR(luminanceOf(clear.horizon), 60.0, 0.1);
     EXPECT_NEAR(luminanceOf(clear.glow), 90.0, 0.1);
     EXPECT_EQ(luminanceOf(fit(glowing(-10.0)).glow), 0.0);
+    // A horizon that the best fit has black: what is far away must not fade to it.
+    const PictureSky dark = fit([&](const glm::dvec3& d) { return 10.0 + 80.0 * std::pow(d.z, 4.0); });
+    EXPECT_NEAR(luminanceOf(dark.horizon), 0.25 * luminanceOf(dark.zenith), 1e-6);
+    EXPECT_NEAR(irradianceOf(dark, light.towardsSun), light.dhi, 0.5);
+}
+
+TEST(PictureSky, WithoutASunOrWithoutLight)
+{
+    const std::vector<gpu::SkyPatchRecord> cells = ringCells();
+    LightState light;
+    light.dni = 0.0;
+    light.dhi = 5.0;
+    light.towardsSun = sunDirection(150, -3, 0);
+    light.skyRadiance.assign(cells.size(), {float(5.0 / 3.14159265358979), {}});
+    const PictureSky dusk = pictureSky(cells, light);
+    EXPECT_EQ(luminanceOf(dusk.glow), 0.0);
+    EXPECT_NEAR(luminanceOf(dusk.zenith), 5.0 / 3.14159265358979, 1e-3) << "uniform, as the cells are";
+    EXPECT_NEAR(luminanceOf(dusk.horizon), 5.0 / 3.14159265358979, 1e-3);
+    light.skyRadiance.assign(cells.size(), {});
+    EXPECT_NEAR(irradianceOf(pictureSky(cells, light), light.towardsSun), 5.0, 0.02) << "cells say nothing";
+    light.dhi = 0.0;
+    const PictureSky night = pictureSky(cells, light);
+    EXPECT_EQ(luminanceOf(night.zenith + night.horizon + night.glow), 0.0);
+    EXPECT_NEAR(luminanceOf(night.tint), 1.0, 1e-12);
+    // The colours do not jump when the disc sets.
+    LightState before, after;
+    setSunDisc(before, sunDirection(150, -0.25, 0), 800.0);
+    setSunDisc(after, sunDirection(150, -0.28, 0), 800.0);
+    EXPECT_NEAR(pictureSky({}, before).tint.b, pictureSky({}, after).tint.b, 0.01);
 }
 
 } // namespace

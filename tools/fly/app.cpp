@@ -154,7 +154,7 @@ bool FlyApp::drawFrame(ShownPicture* capture)
     graph.execute(*recorder_);
     recorder_->submitAndWait();
     frameMs_ = 1000.0 * secondsSince(begin);
-    if (!std::exchange(drawn_, true) && !renderer_->pictureNote().empty())
+    if (!renderer_->pictureNote().empty() && !std::exchange(noted_, true))
         std::cout << "Note: " << renderer_->pictureNote() << std::endl;
     return swapchain_->show(renderer_->displayImage(), capture);
 }

@@ -64,7 +64,7 @@ private:
     double fovDegrees_ = 45.0;
     u32 view_ = 1;
     double frameMs_ = 0.0;
-    bool drawn_ = false; // a picture, at least once
+    bool noted_ = false; // did it print the renderer's note on pictures?
     SolveReport report_;
 };
 

@@ -60,7 +60,7 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
     const float uniform = float(light.dhi / std::numbers::pi);
     const double dni = light.sunUp() ? light.dni : 0.0;
     v.sunLight = glm::vec4(float(dni));
-    v.zenith = glm::vec4(glm::vec3(uniform), 1.0f);
+    v.zenith = glm::vec4(glm::vec3(uniform), 0.0f);
     v.horizon = glm::vec4(glm::vec3(uniform), 0.0f);
     const double height = std::max(light.towardsSun.z, 0.0);
     v.ground = glm::vec4(ground.rho / std::numbers::pi * (dni * height + light.dhi), 0.0);
@@ -69,7 +69,7 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
     // The sun is warm near the horizon and nearly white above 30 degrees; the sky keeps what it lost.
     const double high = glm::smoothstep(0.0, 0.5, height);
     v.sunLight = glm::vec4(dni * tintOf(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
-    v.zenith = glm::vec4(sky->zenith, kSkyPower);
+    v.zenith = glm::vec4(sky->zenith, 0.0);
     v.horizon = glm::vec4(sky->horizon, 1.0 / kGroundHazeLength);
     v.glow = glm::vec4(sky->glow, 1.0);
     const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * sky->tint;

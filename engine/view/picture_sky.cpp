@@ -16,7 +16,7 @@ namespace {
 /// What zenith, horizon and glow add in a direction above the horizon.
 glm::dvec3 shapeAt(const glm::dvec3& direction, const glm::dvec3& towardsSun)
 {
-    const double h = std::pow(1.0 - std::clamp(direction.z, 0.0, 1.0), kSkyPower);
+    const double h = std::pow(1.0 - std::clamp(direction.z, 0.0, 1.0), 3.0);
     const double c = towardsSun.z > 0.0 ? std::max(glm::dot(direction, towardsSun), 0.0) : 0.0;
     return {1.0 - h, h, 0.25 * std::pow(c, 8.0) + 0.5 * std::pow(c, 64.0)};
 }

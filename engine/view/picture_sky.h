@@ -9,14 +9,13 @@
 namespace helio {
 
 /// The sky of a picture for display: radiance of direction d, W/m2/sr, linear r, g, b (shaders/lib/sky.glsl):
-/// zenith (1 - h) + horizon h + glow (c^8 / 4 + c^64 / 2), h = (1 - d.z)^kSkyPower, c = cosine to the sun, at least 0.
+/// zenith (1 - h) + horizon h + glow (c^8 / 4 + c^64 / 2), h = (1 - d.z)^3, c = cosine to the sun, at least 0.
 struct PictureSky
 {
     glm::dvec3 zenith{0.0}, horizon{0.0}, glow{0.0};
     /// Of the light that the sky gives to surfaces; luminance 1.
     glm::dvec3 tint{1.0};
 };
-inline constexpr double kSkyPower = 3.0;
 
 /// Fits that sky to the light: in luminance by least squares to the cells' radiances, where it has some that shine,
 /// else of the shape of a clear sky; the horizon at least a quarter as bright as the zenith; and such that an open

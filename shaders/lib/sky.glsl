@@ -4,10 +4,11 @@
 // Needs `view`, a ViewRecord.
 vec3 domeRadiance(vec3 direction)
 {
-    const float up = clamp(direction.z, 0.0, 1.0); // a normalised z may be 1 + an ulp
+    // Products, since a power costs a software device tens of them.
+    const float low = 1.0 - clamp(direction.z, 0.0, 1.0); // a normalised z may be 1 + an ulp
     const float toSun = max(dot(direction, view.sunDirection.xyz), 0.0);
-    return mix(view.zenith.rgb, view.horizon.rgb, pow(1.0 - up, view.zenith.w)) +
-           view.glow.rgb * (pow(toSun, 8.0) * 0.25 + pow(toSun, 64.0) * 0.5);
+    const float c2 = toSun * toSun, c4 = c2 * c2, c8 = c4 * c4, c16 = c8 * c8, c32 = c16 * c16;
+    return mix(view.zenith.rgb, view.horizon.rgb, low * low * low) + view.glow.rgb * (0.25 * c8 + 0.5 * c32 * c32);
 }
 
 vec3 backgroundRadiance(vec3 direction)

@@ -44,7 +44,7 @@ struct ViewRecord {
     mat4 worldFromClip;
     vec4 sunDirection;     // unit, towards the sun; w = 1 when the sun is up
     vec4 sunLight;         // W/m2: DNI x display tint
-    vec4 zenith;           // radiance of the picture's sky, W/m2/sr; w = power of the gradient; display only
+    vec4 zenith;           // radiance of the picture's sky, W/m2/sr; display only
     vec4 horizon;          // w = 1 / length of the haze over the ground beyond the scene, 1/m
     vec4 glow;             // radiance added around the sun; w = 1 where panes of glass reflect the sky, display only
     vec4 ground;           // radiance of the ground beyond the scene; w = height of the eye above it, m

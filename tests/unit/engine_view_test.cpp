@@ -284,7 +284,7 @@ double irradianceOf(const PictureSky& sky, const glm::dvec3& towardsSun)
     for (int i = 0; i < kSteps; ++i)
         for (int k = 0; k < kSteps; ++k) {
             const double z = (i + 0.5) / kSteps, turn = 2.0 * 3.14159265358979 * (k + 0.5) / kSteps;
-            const double level = std::sqrt(1.0 - z * z), h = std::pow(1.0 - z, kSkyPower);
+            const double level = std::sqrt(1.0 - z * z), h = std::pow(1.0 - z, 3.0);
             const double c =
                 std::max(glm::dot(glm::dvec3(level * std::cos(turn), level * std::sin(turn), z), towardsSun), 0.0);
             sum += z * luminanceOf(sky.zenith * (1.0 - h) + sky.horizon * h +
@@ -353,7 +353,7 @@ TEST(PictureSky, FollowsTheSkyModel)
     light.dni = 800.0;
     const auto glowing = [&](double weight) {
         return [&, weight](const glm::dvec3& d) {
-            const double h = std::pow(1.0 - d.z, kSkyPower), c = std::max(glm::dot(d, light.towardsSun), 0.0);
+            const double h = std::pow(1.0 - d.z, 3.0), c = std::max(glm::dot(d, light.towardsSun), 0.0);
             return 20.0 * (1.0 - h) + 60.0 * h + weight * (0.25 * std::pow(c, 8.0) + 0.5 * std::pow(c, 64.0));
         };
     };

@@ -20,7 +20,7 @@ struct AssetMesh
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals; ///< unit
     std::vector<glm::vec3> albedos; ///< per vertex, linear: the material's diffuse reflectance for display
-    std::vector<bool> isGlass;      ///< per vertex: a pane, which pictures let reflect the sky
+    std::vector<bool> isGlass;      ///< per vertex, of a material named "glass": pictures let it reflect the sky
     std::vector<u32> indices;       ///< triangles, counter-clockwise outside
     glm::dvec3 boxMin{0.0}, boxMax{0.0};
     /// Diffuse reflectance (r, g, b, solar) that its front (+z) view shows: area-weighted by projected area, by

@@ -12,17 +12,18 @@
 
 namespace helio {
 
-/// What the forward pass needs to know about one picture, in its two parts. display: tinted sun and sky, haze, gradient
-/// sky (display only); else plain radiance before a uniform sky.
+/// What the forward pass needs to know about one picture, in its two parts. For display: tinted sun and sky, haze, the
+/// sky of PictureSky, and panes that reflect it; else plain radiance before a uniform sky.
 gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunView& sun, bool display);
 
 /// The ground beyond the scene.
 struct FarGround
 {
     double z = 0.0;      ///< m, where it lies
-    glm::dvec3 rho{0.0}; ///< its reflectance; 0: the light solve knows none, and only pictures for display show one
+    glm::dvec3 rho{0.0}; ///< its reflectance; 0: the light solve knows none, and only pictures for display show one.
+                         ///< They take its luminance alone, in the colour of fields
 };
-/// size: of the picture, in samples. sky: of a picture for display.
+/// size: of the picture, in samples. sky: where the picture is for display.
 gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightState& light, const SunView& sun,
                            const FarGround& ground, const std::optional<PictureSky>& sky);
 

@@ -71,7 +71,7 @@ struct ViewOptions
     u32 samples = 1;            ///< samples a pixel along each axis, 1..4; forced to 1 for ids and depth
     bool smoothLight = true; ///< final: interpolate E_sky and E_indirect over coplanar patches (display only), if the
                              ///< device can hold that; else pictureNote() says so
-    bool display = true;     ///< final: tinted sun and sky, haze and sky gradient; false: plain radiance, uniform sky
+    bool display = true;     ///< final: tints, haze, sky, reflecting panes; false: plain radiance, uniform sky
     double exposureStops = 0.0; ///< added to the automatic exposure
 };
 

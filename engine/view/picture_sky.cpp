@@ -75,13 +75,19 @@ double clearness(const LightState& light)
 
 } // namespace
 
+double luminance(const glm::dvec3& colour)
+{
+    return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
 glm::dvec3 tintOf(const glm::dvec3& colour)
 {
-    return colour / glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+    return colour / luminance(colour);
 }
 
 PictureSky pictureSky(std::span<const gpu::SkyPatchRecord> skyPatches, const LightState& light)
 {
+    // The sun is warm near the horizon and nearly white above 30 degrees; the sky keeps what it lost.
     const double high = glm::smoothstep(0.0, 0.5, light.towardsSun.z), clear = clearness(light);
     const auto colour = [&](glm::dvec3 low, glm::dvec3 noon) {
         return tintOf(glm::mix(glm::dvec3(0.95, 1.0, 1.06), tintOf(glm::mix(low, noon, high)), clear));
@@ -94,7 +100,8 @@ PictureSky pictureSky(std::span<const gpu::SkyPatchRecord> skyPatches, const Lig
     weights *= light.dhi / glm::dot(irradianceOfShapes(light.towardsSun), weights);
     return {weights[0] * colour({0.42, 0.70, 1.25}, {0.34, 0.80, 1.75}),
             weights[1] * colour({1.75, 1.42, 1.15}, {1.40, 1.72, 2.05}),
-            weights[2] * colour({2.4, 1.3, 0.6}, {1.2, 1.1, 0.9}), colour({0.82, 0.88, 1.0}, {0.74, 0.87, 1.0})};
+            weights[2] * colour({2.4, 1.3, 0.6}, {1.2, 1.1, 0.9}), colour({0.82, 0.88, 1.0}, {0.74, 0.87, 1.0}),
+            tintOf(glm::mix(glm::dvec3(1.0, 0.62, 0.30), glm::dvec3(1.0, 0.93, 0.82), high))};
 }
 
 } // namespace helio

@@ -13,8 +13,8 @@ namespace helio {
 struct PictureSky
 {
     glm::dvec3 zenith{0.0}, horizon{0.0}, glow{0.0};
-    /// Of the light that the sky gives to surfaces; luminance 1.
-    glm::dvec3 tint{1.0};
+    /// Of the light that sky and sun give to surfaces; luminance 1.
+    glm::dvec3 tint{1.0}, sunTint{1.0};
 };
 
 /// Fits that sky to the light: in luminance by least squares to the cells' radiances, where it has some that shine,
@@ -23,7 +23,9 @@ struct PictureSky
 /// where the sun stands above the horizon and does not come through. skyPatches: those of the pack.
 PictureSky pictureSky(std::span<const gpu::SkyPatchRecord> skyPatches, const LightState& light);
 
-/// Scales a colour to luminance 1 (Rec. 709), so that a tint changes no brightness.
+/// Of linear r, g, b (Rec. 709).
+double luminance(const glm::dvec3& colour);
+/// Scales a colour to luminance 1, so that a tint changes no brightness.
 glm::dvec3 tintOf(const glm::dvec3& colour);
 
 } // namespace helio

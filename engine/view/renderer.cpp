@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/gpu/transfer.h"
@@ -91,17 +92,15 @@ struct Renderer::Impl
     }
 
     /// Soft light for pictures, worked out anew when the light changed, or the colour of its sky.
-    void addLight(FrameGraph& graph, ShadeInputs& in, const std::optional<PictureSky>& sky)
+    void addLight(FrameGraph& graph, ShadeInputs& in, const std::optional<PictureSky>& sky, bool interpolate)
     {
         in.light = graph.import(softLight);
         in.smooth = graph.import(smooth.values);
         const SoftLightOf now{solver.solveCount(), sky.has_value()};
-        if (std::exchange(softLightOf, now) != now) {
+        if (std::exchange(softLightOf, now) != now)
             in.light = addSoftLight(graph, tile, graph.import(solver.sky()), graph.import(solver.indirect()),
                                     glm::vec4(sky ? sky->tint : glm::dvec3(1.0), 1.0), in.light);
-            smoothLightOf.reset();
-        }
-        if (in.interpolate && std::exchange(smoothLightOf, now) != now)
+        if (interpolate && std::exchange(smoothLightOf, now) != now)
             in.smooth = addSmoothLight(graph, smooth, in.light);
     }
 
@@ -300,7 +299,12 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     std::memcpy(r.viewRecord.mapped(), &record, sizeof(record));
     r.viewRecord.flush();
     const glm::vec4 eye(glm::vec3(camera.eye), 1.0f);
-    r.drawn = FacingLists(r.context, facingDraws(r.tile.chunks, params.clipFromWorld, eye));
+    std::span<const DrawChunk> chunks = r.tile.chunks;
+    if (smooth) { // The refined mesh stands for the static one, which comes first.
+        const auto isAsset = [](const DrawChunk& chunk) { return !isStaticDraw(chunk.draw); };
+        chunks = chunks.subspan(size_t(std::find_if(chunks.begin(), chunks.end(), isAsset) - chunks.begin()));
+    }
+    r.drawn = FacingLists(r.context, facingDraws(chunks, params.clipFromWorld, eye));
     r.smoothDrawn =
         FacingLists(r.context, smooth ? facingDraws(r.smooth.chunks, params.clipFromWorld, eye) : FacingDraws{});
 
@@ -310,8 +314,8 @@ Ref<Image> Renderer::addFrame(FrameGraph& graph, const Camera& camera, u32 width
     in.shadow = graph.import(r.solver.shadow());
     in.shown = graph.import(r.shown(options.mode));
     in.mode = options.mode;
-    in.interpolate = smooth;
-    r.addLight(graph, in, sky);
+    in.light = in.smooth = in.shown; // not read
+    if (options.mode == gpu::kModeFinal) r.addLight(graph, in, sky, smooth);
     in.emitters = r.tile.emits && r.light.emission;
     const ShadeTargets targets = addForward(graph, r.tile, r.drawn, r.smooth, r.smoothDrawn, in,
                                             {graph.import(r.images.radiance), graph.import(r.images.depth)});
